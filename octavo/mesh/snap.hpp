@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <octavo/base/result.hpp>
+#include <octavo/mesh/mesh.hpp>
+
+// From doubles to the lattice: the only rounding of a job's input, and its report.
+
+namespace octavo::mesh {
+
+struct SnapReport {
+    double largest_displacement = 0;  ///< in world units
+    std::size_t moved_vertices = 0;   ///< vertices that were not already on the lattice
+};
+
+struct Snapped {
+    LatticeMesh mesh;
+    SnapReport report;
+};
+
+/// Snaps each vertex to `lattice`, whose universe must contain the mesh. Vertices keep their indices, even
+/// when two of them meet in one point. Errors: bad_input when a vertex is not finite or lies outside.
+Result<Snapped> snap(const Mesh& mesh, const exact::Lattice& lattice);
+
+/// Snaps to the finest lattice that contains the mesh.
+Result<Snapped> snap(const Mesh& mesh);
+
+}  // namespace octavo::mesh
