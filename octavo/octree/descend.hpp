@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include <octavo/base/parallel.hpp>
+#include <octavo/octree/cell.hpp>
+#include <octavo/octree/df_code.hpp>
+
+// The descent: the one recursion of Octavo.
+//
+// A description of something (a solid, several solids, a set of triangles) can be *restricted* to a cell: a
+// CSG expression becomes what is still undecided there, a mesh the triangles that touch the cell. A problem
+// says how; the descent visits the cells depth first, restricts, and hands nodes and leaves to an output in
+// Morton order.
+//
+// A problem is a class with
+//
+//     struct Description;  // a restriction: small and copyable; bulk data lies in the workspace (index
+//     ranges) class Workspace;     // scratch of one path from the root: one growing buffer a level, reused,
+//     see below class Output;        // what is built; see below
+//
+//     int depth() const;                                   // the level below which nothing is split, ≤ 21
+//     Workspace make_workspace() const;
+//     Output make_output() const;
+//     Restricted<Description> root(Workspace&) const;      // the universe: a leaf, or split with a
+//     description void restrict_to_children(const Cell& parent, const Description&, Workspace&,
+//                               Children<Description>&) const;   // for each octant: a leaf's colour, or
+//                               split
+//     std::size_t weight(const Description&) const;        // how much work is in it: list or program length
+//     Description transfer(const Cell&, const Description&, const Workspace& from, Workspace& to) const;
+//                                                          // copies the cell's bulk data to another
+//                                                          workspace
+//
+// and an output one with
+//
+//     void split(const Cell&);                              // a node; what lies in it follows
+//     void leaf(const Cell&, const Restricted<Description>&, const Workspace&);
+//     void merge(const Cell&, Color);   // the eight octants of the cell, just given, are leaves of one
+//     decided
+//                                       // colour: they and their parent become one leaf
+//     void append(Output&&);            // the output of the cells that follow in Morton order
+//
+// Buffers: while the octants of a cell of level L are visited, their descriptions must stay where they are;
+// they belong in the buffer of level L + 1, which the next `restrict_to_children` of a level-L cell may
+// overwrite. So memory is depth × description, nothing is allocated per cell once the buffers have grown, and
+// a description given to `Output::leaf` is valid during that call only.
+//
+// Threads: sub-trees whose weight exceeds `fork_weight` are forked; each has its own workspace and output,
+// and outputs are appended in Morton order. A problem whose answers depend on the description alone therefore
+// gives the same bytes for any number of threads. `restrict_to_children` is called from several threads at
+// once.
+//
+// Small example, the cells of level ≤ 5 of the half space x < 1000 (no list, so nothing to store):
+//
+//     struct HalfSpace {
+//         struct Description {};
+//         struct Workspace {};
+//         using Output = DfOutput;
+//         int depth() const { return 5; }
+//         Workspace make_workspace() const { return {}; }
+//         Output make_output() const { return {}; }
+//         Restricted<Description> root(Workspace&) const { return {Node::split, {}}; }
+//         std::size_t weight(const Description&) const { return 1; }
+//         Description transfer(const Cell&, const Description& d, const Workspace&, Workspace&) const {
+//             return d;
+//         }
+//         void restrict_to_children(const Cell& parent, const Description&, Workspace&,
+//                                   Children<Description>& children) const {
+//             for (int i = 0; i < 8; ++i) {
+//                 const Cell child = parent.child(i);
+//                 children[i].node = child.high().x <= 1000 ? Node::black
+//                                    : child.low.x >= 1000  ? Node::white
+//                                                           : Node::split;
+//             }
+//         }
+//     };
+//     Result<DfOutput> built = descend(HalfSpace{});
+
+namespace octavo::octree {
+
+/// A description restricted to a cell: a decided leaf, a gray leaf, or split, that is to be looked into
+/// further. The description of a white or black leaf may be left as it is.
+template <class Description>
+struct Restricted {
+    Node node = Node::white;
+    Description description{};
+};
+
+template <class Description>
+using Children = std::array<Restricted<Description>, 8>;
+
+template <class P>
+concept DescentProblem = requires(const P& problem, const Cell& cell, typename P::Workspace& workspace,
+                                  typename P::Output& output, const typename P::Description& description,
+                                  Children<typename P::Description>& children) {
+    { problem.depth() } -> std::convertible_to<int>;
+    { problem.make_workspace() } -> std::same_as<typename P::Workspace>;
+    { problem.make_output() } -> std::same_as<typename P::Output>;
+    { problem.root(workspace) } -> std::same_as<Restricted<typename P::Description>>;
+    problem.restrict_to_children(cell, description, workspace, children);
+    { problem.weight(description) } -> std::convertible_to<std::size_t>;
+    { problem.transfer(cell, description, workspace, workspace) } -> std::same_as<typename P::Description>;
+    output.split(cell);
+    output.leaf(cell, children[0], workspace);
+    output.merge(cell, Color::white);
+    output.append(std::move(output));
+};
+
+struct DescentOptions {
+    /// The name under which progress is reported.
+    std::string_view phase = "octree";
+    /// Sub-trees with more weight than this may run at the same time as their siblings. Small enough for
+    /// eight threads to share 100 000 triangles, large enough that a fork (some microseconds) is lost in it.
+    /// It does not influence the result.
+    std::size_t fork_weight = 2000;
+};
+
+/// The usual output: the nodes as a DF code, white and black siblings merged.
+class DfOutput {
+  public:
+    void split(const Cell&) { code_.append(Node::split); }
+    template <class Description, class Workspace>
+    void leaf(const Cell&, const Restricted<Description>& leaf, const Workspace&) {
+        code_.append(leaf.node);
+    }
+    void merge(const Cell&, Color color) {
+        code_.truncate(code_.size() - 9);
+        code_.append(leaf_of(color));
+    }
+    void append(DfOutput&& next) { code_.append(next.code_); }
+
+    const DfCode& code() const { return code_; }
+    DfCode take_code() { return std::move(code_); }
+
+  private:
+    DfCode code_;
+};
+
+namespace descend_detail {
+
+/// Adds up how much of the work is done and reports it, from one thread at a time and not too often.
+class Progress {
+  public:
+    Progress(const Context& context, std::string_view phase) : context_(context), phase_(phase) {}
+
+    void add(double share) {
+        if (!context_.on_progress) return;
+        const std::scoped_lock lock(mutex_);
+        done_ = std::fmin(1.0, done_ + share);
+        if (done_ < reported_ + 1.0 / 256) return;
+        reported_ = done_;
+        context_.report(phase_, done_);
+    }
+    void finish() { context_.report(phase_, 1.0); }
+
+  private:
+    const Context& context_;
+    std::string_view phase_;
+    std::mutex mutex_;
+    double done_ = 0, reported_ = 0;
+};
+
+template <DescentProblem Problem>
+class Descent {
+  public:
+    using Description = typename Problem::Description;
+    using Workspace = typename Problem::Workspace;
+    using Output = typename Problem::Output;
+
+    Descent(const Problem& problem, const DescentOptions& options, const Context& context)
+        : problem_(problem),
+          options_(options),
+          context_(context),
+          progress_(context, options.phase),
+          depth_(problem.depth()) {
+        OCTAVO_CHECK(depth_ >= 0 && depth_ <= max_level, "the depth of a descent is 0 to 21");
+    }
+
+    Result<Output> run() {
+        Output output = problem_.make_output();
+        std::unique_ptr<Workspace> workspace = borrow();
+        Restricted<Description> root = problem_.root(*workspace);
+        if (root.node == Node::split && depth_ == 0) root.node = Node::gray;
+        if (is_leaf(root.node))
+            output.leaf(Cell::root(), root, *workspace);
+        else if (context_.threads == 1)
+            visit<false>(Cell::root(), root.description, *workspace, output, 1.0);
+        else
+            within_threads(context_,
+                           [&] { visit<true>(Cell::root(), root.description, *workspace, output, 1.0); });
+        if (cancelled_) return Context::cancelled_error();
+        progress_.finish();
+        return output;
+    }
+
+  private:
+    // A share of all work smaller than this is not reported on its own, nor split further.
+    static constexpr double least_share = 1.0 / 1024;
+
+    /// Visits a cell that is split; returns the colour of all of it when its leaves could be merged, else
+    /// split.
+    template <bool may_fork>
+    Node visit(const Cell& cell, const Description& description, Workspace& workspace, Output& output,
+               double share) {
+        if (cancelled_.load(std::memory_order_relaxed)) return Node::split;
+        if (context_.cancelled()) {
+            cancelled_ = true;
+            return Node::split;
+        }
+        Children<Description> children;
+        problem_.restrict_to_children(cell, description, workspace, children);
+        output.split(cell);
+        if (cell.level + 1 == depth_) {
+            for (Restricted<Description>& child : children)
+                if (child.node == Node::split) child.node = Node::gray;
+        }
+        const bool fork = may_fork && problem_.weight(description) > options_.fork_weight;
+        const Node merged = fork ? visit_octants_apart(cell, children, workspace, output, share)
+                                 : visit_octants<may_fork>(cell, children, workspace, output, share);
+        if (merged == Node::white || merged == Node::black) output.merge(cell, color_of(merged));
+        return merged;
+    }
+
+    template <bool may_fork>
+    Node visit_octants(const Cell& cell, const Children<Description>& children, Workspace& workspace,
+                       Output& output, double share) {
+        const double child_share = share < least_share ? 0 : share / weight_of_split(children);
+        Node common = children[0].node;
+        for (int i = 0; i < 8; ++i) {
+            const Restricted<Description>& child = children[static_cast<std::size_t>(i)];
+            Node node = child.node;
+            if (is_leaf(node))
+                output.leaf(cell.child(i), child, workspace);
+            else
+                node = visit<may_fork>(cell.child(i), child.description, workspace, output,
+                                       child_share * weight_of(child));
+            if (i == 0) common = node;
+            if (node != common) common = Node::split;
+        }
+        if (child_share == 0 && share != 0) progress_.add(share);
+        return common == Node::gray ? Node::split : common;
+    }
+
+    Node visit_octants_apart(const Cell& cell, const Children<Description>& children, Workspace& workspace,
+                             Output& output, double share) {
+        const double child_share = share / weight_of_split(children);
+        std::array<Node, 8> nodes;
+        std::vector<Output> outputs;
+        outputs.reserve(8);
+        for (int i = 0; i < 8; ++i) outputs.push_back(problem_.make_output());
+        tbb::parallel_for(0, 8, [&](int i) {
+            const std::size_t octant = static_cast<std::size_t>(i);
+            const Restricted<Description>& child = children[octant];
+            nodes[octant] = child.node;
+            if (is_leaf(child.node)) {
+                outputs[octant].leaf(cell.child(i), child, workspace);
+                return;
+            }
+            std::unique_ptr<Workspace> own = borrow();
+            const Description moved = problem_.transfer(cell.child(i), child.description, workspace, *own);
+            nodes[octant] =
+                visit<true>(cell.child(i), moved, *own, outputs[octant], child_share * weight_of(child));
+            give_back(std::move(own));
+        });
+        for (Output& part : outputs) output.append(std::move(part));
+        for (const Node node : nodes)
+            if (node != nodes[0] || node == Node::gray) return Node::split;
+        return nodes[0];
+    }
+
+    double weight_of(const Restricted<Description>& child) const {
+        return static_cast<double>(problem_.weight(child.description)) + 1;
+    }
+    double weight_of_split(const Children<Description>& children) const {
+        double sum = 0;
+        for (const Restricted<Description>& child : children)
+            if (!is_leaf(child.node)) sum += weight_of(child);
+        return sum > 0 ? sum : 1;
+    }
+
+    // Workspaces are pooled, not thread-local: a thread that waits for its octants may run another sub-tree.
+    std::unique_ptr<Workspace> borrow() {
+        const std::scoped_lock lock(pool_mutex_);
+        if (pool_.empty()) return std::make_unique<Workspace>(problem_.make_workspace());
+        std::unique_ptr<Workspace> workspace = std::move(pool_.back());
+        pool_.pop_back();
+        return workspace;
+    }
+    void give_back(std::unique_ptr<Workspace> workspace) {
+        const std::scoped_lock lock(pool_mutex_);
+        pool_.push_back(std::move(workspace));
+    }
+
+    const Problem& problem_;
+    const DescentOptions& options_;
+    const Context& context_;
+    Progress progress_;
+    const int depth_;
+    std::atomic<bool> cancelled_{false};
+    std::mutex pool_mutex_;
+    std::vector<std::unique_ptr<Workspace>> pool_;
+};
+
+}  // namespace descend_detail
+
+/// Runs the descent of `problem` from the universe. The result does not depend on the number of threads.
+/// Errors: cancelled.
+template <DescentProblem Problem>
+Result<typename Problem::Output> descend(const Problem& problem, const Context& context = {},
+                                         const DescentOptions& options = {}) {
+    return descend_detail::Descent<Problem>(problem, options, context).run();
+}
+
+}  // namespace octavo::octree
