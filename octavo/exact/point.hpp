@@ -15,8 +15,8 @@ inline constexpr std::int32_t universe_side = std::int32_t{1} << coordinate_bits
 struct Point {
     std::int32_t x = 0, y = 0, z = 0;
 
-    std::int32_t operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-    friend auto operator<=>(const Point&, const Point&) = default;
+    constexpr std::int32_t operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+    friend constexpr auto operator<=>(const Point&, const Point&) = default;
 };
 
 }  // namespace octavo::exact
