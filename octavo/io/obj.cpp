@@ -96,9 +96,10 @@ class ObjReader {
             if (backwards) scanner_.advance();
             std::uint64_t index = 0;
             const char* const digits = scanner_.position();
-            for (; scanner_.peek() >= '0' && scanner_.peek() <= '9' && index <= 0xffffffffu;
-                 scanner_.advance())
-                index = 10 * index + static_cast<std::uint64_t>(scanner_.peek() - '0');
+            for (; scanner_.peek() >= '0' && scanner_.peek() <= '9'; scanner_.advance())
+                if (index <= 0xffffffffu)
+                    index = 10 * index + static_cast<std::uint64_t>(scanner_.peek() - '0');
+            const std::string_view number(before, static_cast<std::size_t>(scanner_.position() - before));
             // What follows a slash numbers texture coordinates and normals.
             const char end = scanner_.peek();
             if (scanner_.position() == digits || (end != '/' && end != '\\' && !TextScanner::is_space(end))) {
@@ -108,9 +109,8 @@ class ObjReader {
             while (!TextScanner::is_space(scanner_.peek()) && scanner_.peek() != '\\') scanner_.advance();
             const std::uint64_t vertices = result_.vertices.size();
             if (index == 0 || (backwards && index > vertices) || index > 0xffffffffu)
-                return scanner_.error_at(before,
-                                         "the face names vertex " + std::string(backwards ? "-" : "") +
-                                             std::to_string(index) + " of " + std::to_string(vertices));
+                return scanner_.error_at(before, "the face names vertex " + std::string(number) + " of " +
+                                                     std::to_string(vertices));
             corners_.push_back(static_cast<mesh::VertexIndex>(backwards ? vertices - index : index - 1));
             // Vertices may follow the faces that use them, so the end of the file judges the greatest.
             if (corners_.back() > greatest_ || !greatest_at_) {

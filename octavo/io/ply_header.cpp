@@ -37,24 +37,25 @@ class HeaderReader {
         for (;;) {
             scanner_.skip_space();
             const std::string_view keyword = scanner_.word();
-            if (keyword.empty()) return scanner_.error_here("the header does not end with \"end_header\"");
+            line_ = keyword.data();
+            if (keyword.empty()) return error("the header does not end with \"end_header\"");
             if (keyword == "end_header") break;
-            std::optional<Error> error;
+            std::optional<Error> trouble;
             if (keyword == "format") {
                 has_format = true;
-                error = read_format();
+                trouble = read_format();
             } else if (keyword == "element") {
-                error = read_element();
+                trouble = read_element();
             } else if (keyword == "property") {
-                error = read_property();
+                trouble = read_property();
             } else if (keyword != "comment" && keyword != "obj_info") {
-                scanner_.go_to(keyword.data());
-                return scanner_.error_here("the header holds the unknown word " + scanner_.quoted());
+                scanner_.go_to(line_);
+                return error("the header holds the unknown word " + scanner_.quoted());
             }
-            if (error) return *error;
+            if (trouble) return *trouble;
             scanner_.skip_line();
         }
-        if (!has_format) return scanner_.error_here("the header names no format");
+        if (!has_format) return error("the header names no format");
         scanner_.skip_line();
         if (scanner_.peek() == '\r' && scanner_.remaining() > 0) scanner_.advance();
         if (!lone_cr && scanner_.peek() == '\n') scanner_.advance();
@@ -63,6 +64,9 @@ class HeaderReader {
     }
 
   private:
+    /// An error in this line.
+    Error error(std::string sentence) const { return scanner_.error_at(line_, std::move(sentence)); }
+
     /// The next word of this line.
     std::string_view word_in_line() {
         scanner_.skip_blanks();
@@ -78,8 +82,7 @@ class HeaderReader {
         } else if (name == "binary_big_endian") {
             header_.encoding = PlyEncoding::big_endian;
         } else {
-            return scanner_.error_here(
-                "the format is none of ascii, binary_little_endian and binary_big_endian");
+            return error("the format is none of ascii, binary_little_endian and binary_big_endian");
         }
         return {};
     }
@@ -90,16 +93,16 @@ class HeaderReader {
         scanner_.skip_blanks();
         const std::optional<std::uint64_t> count =
             scanner_.at_line_end() ? std::optional<std::uint64_t>{} : scanner_.count();
-        if (element.name.empty() || !count) return scanner_.error_here("an element needs a name and a count");
+        if (element.name.empty() || !count) return error("an element needs a name and a count");
         if (header_.element(element.name))
-            return scanner_.error_here("the element " + element.name + " is announced twice");
+            return error("the element " + element.name + " is announced twice");
         element.count = *count;
         header_.elements.push_back(std::move(element));
         return {};
     }
 
     std::optional<Error> read_property() {
-        if (header_.elements.empty()) return scanner_.error_here("a property stands before any element");
+        if (header_.elements.empty()) return error("a property stands before any element");
         PlyProperty property;
         std::string_view type_name = word_in_line();
         if (type_name == "list") {
@@ -112,18 +115,18 @@ class HeaderReader {
         if (!type) return unknown_type(type_name);
         property.type = *type;
         property.name = word_in_line();
-        if (property.name.empty()) return scanner_.error_here("a property has no name");
+        if (property.name.empty()) return error("a property has no name");
         header_.elements.back().properties.push_back(std::move(property));
         return {};
     }
 
     Error unknown_type(std::string_view name) {
-        scanner_.go_to(name.data() ? name.data() : scanner_.position());
-        return scanner_.error_here("unknown type of a property: " + scanner_.quoted());
+        return error("a property has the unknown type \"" + std::string(name.substr(0, 32)) + '"');
     }
 
     Bytes bytes_;
     TextScanner scanner_;
+    const char* line_ = nullptr;  ///< its keyword
     PlyHeader header_;
 };
 

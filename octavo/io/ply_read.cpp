@@ -17,7 +17,11 @@ class TextValues {
         scanner_.go_to(text_of(bytes).data() + begin);
     }
 
-    std::optional<double> next(PlyType) { return scanner_.number(); }
+    std::optional<double> next(PlyType) {
+        scanner_.skip_space();
+        last_ = scanner_.position();
+        return scanner_.number();
+    }
     bool skip(PlyType, std::uint64_t count) {
         for (; count > 0; --count)
             if (scanner_.word().empty()) return false;
@@ -29,15 +33,19 @@ class TextValues {
     }
     bool has_room(std::uint64_t values, PlyType) const { return values <= (scanner_.remaining() + 1) / 2; }
     std::size_t remaining() const { return scanner_.remaining(); }
-    Error error(std::string sentence) { return scanner_.error_here(std::move(sentence)); }
+    /// An error about the value read last, and one about what follows.
+    Error error(std::string sentence) const { return scanner_.error_at(last_, std::move(sentence)); }
+    Error error_here(std::string sentence) { return scanner_.error_here(std::move(sentence)); }
     Error missing() {
         scanner_.skip_space();
-        return error(scanner_.at_end() ? "the file ends before the last element that the header announces"
-                                       : "expected a number, found " + scanner_.quoted());
+        return error_here(scanner_.at_end()
+                              ? "the file ends before the last element that the header announces"
+                              : "expected a number, found " + scanner_.quoted());
     }
 
   private:
     TextScanner scanner_;
+    const char* last_ = nullptr;
 };
 
 /// The values of a binary body.
@@ -49,6 +57,7 @@ class BinaryValues {
     std::optional<double> next(PlyType type) {
         if (remaining() < size_of(type)) return {};
         const std::byte* const from = bytes_.data() + at_;
+        last_ = at_;
         at_ += size_of(type);
         switch (type) {
             case PlyType::int8:
@@ -80,12 +89,11 @@ class BinaryValues {
     }
     bool has_room(std::uint64_t values, PlyType type) const { return values <= remaining() / size_of(type); }
     std::size_t remaining() const { return bytes_.size() - at_; }
-    Error error(std::string sentence) const {
-        Place place;
-        place.byte = at_;
-        return {ErrorCode::bad_input, std::move(sentence), std::move(place)};
+    Error error(std::string sentence) const { return error_at(last_, std::move(sentence)); }
+    Error error_here(std::string sentence) const { return error_at(at_, std::move(sentence)); }
+    Error missing() const {
+        return error_here("the file ends before the last element that the header announces");
     }
-    Error missing() const { return error("the file ends before the last element that the header announces"); }
 
     template <class T>
     static T load_at(const std::byte* from) {
@@ -95,8 +103,15 @@ class BinaryValues {
     void go_to(const std::byte* position) { at_ = static_cast<std::size_t>(position - bytes_.data()); }
 
   private:
+    static Error error_at(std::size_t byte, std::string sentence) {
+        Place place;
+        place.byte = byte;
+        return {ErrorCode::bad_input, std::move(sentence), std::move(place)};
+    }
+
     Bytes bytes_;
     std::size_t at_;
+    std::size_t last_ = 0;  ///< where the value read last began
 };
 
 /// What a row of an element gives.
@@ -115,8 +130,9 @@ class BodyReader {
         for (const PlyElement& element : header_.elements) {
             if (element.properties.empty() || element.count == 0) continue;
             if (!values_.has_room(element.count, element))
-                return values_.error("the header announces " + std::to_string(element.count) + " rows of " +
-                                     element.name + ", more than the rest of the file can hold");
+                return values_.error_here("the header announces " + std::to_string(element.count) +
+                                          " rows of " + element.name +
+                                          ", more than the rest of the file can hold");
             if (const std::optional<Error> error = read_element(element)) return *error;
         }
         return std::move(result_);
@@ -132,7 +148,8 @@ class BodyReader {
             for (int axis = 0; axis < 3; ++axis) {
                 const char name[] = {static_cast<char>('x' + axis), '\0'};
                 const std::optional<std::size_t> property = element.scalar(name);
-                if (!property) return values_.error(std::string("the vertices have no property ") + name);
+                if (!property)
+                    return values_.error_here(std::string("the vertices have no property ") + name);
                 axis_of_[*property] = axis;
             }
             result_.vertices.reserve(element.count);
@@ -143,7 +160,7 @@ class BodyReader {
                                                          element.properties[i].name == "vertex_index"))
                     list_ = i;
             if (list_ == element.properties.size())
-                return values_.error("the element " + element.name + " has no list vertex_indices");
+                return values_.error_here("the element " + element.name + " has no list vertex_indices");
             if (role == Role::face) result_.faces.reserve_triangles(element.count);
         }
         std::uint64_t done = 0;

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+
+#include "from_text.hpp"
+#include <octavo/io/ply.hpp>
+
+namespace octavo::io {
+namespace {
+
+using Triangles = std::vector<mesh::Triangle>;
+const std::vector<Vec3> square_vertices{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+const std::string header_of_square =
+    "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n";
+const std::string square = header_of_square + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+
+void expect_square(std::string_view text) {
+    const ReadMesh read = must_read(text, "ply");
+    EXPECT_EQ(read.mesh.vertices, square_vertices);
+    EXPECT_EQ(read.mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(PlyText, ReadsAnyLayout) {
+    expect_square(square);
+    expect_square(replaced(square, "\n", "\r\n"));
+    expect_square(replaced(square, "\n", "\r"));
+    expect_square(replaced(square, "vertex_indices", "vertex_index"));
+    expect_square(replaced(square, "float", "double"));
+    expect_square(replaced(square, "float", "int16"));
+    expect_square(replaced(square, "\nend_header", "\nobj_info x\nend_header"));
+    expect_square(replaced(header_of_square, "property float z",
+                           "property float z\nproperty uchar red\n"
+                           "property list int float weights") +
+                  "0 0 0 255 0\n1 0 0 255 2 0.5 nan\n1 1 0 0 1 7\n0 1 0 0 0\n3 0 1 2\n3 0 2 3\n");
+    expect_square(
+        replaced(replaced(header_of_square, "property float x", "property float nx\nproperty float z"),
+                 "property float z\nelement", "property float x\nelement") +
+        "9 0 0 0\n9 0 0 1\n9 0 1 1\n9 0 1 0\n3 0 1 2\n3 0 2 3\n");
+}
+
+TEST(PlyText, SkipsOtherElementsAndPropertiesOfFaces) {
+    expect_square(
+        "ply\nformat ascii 1.0\nelement camera 2\nproperty float fov\nproperty list uchar int pixels\n"
+        "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+        "property uchar red\nproperty list uchar float texcoord\nproperty list uint uint vertex_indices\n"
+        "property float quality\nelement edge 1\nproperty int a\nend_header\n"
+        "45 0\n50 2 1 1\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n255 1 0.5 3 0 1 2 1\n0 0 3 0 2 3 nan\n1\n");
+}
+
+TEST(PlyText, ExpandsTriangleStrips) {
+    const ReadMesh read = must_read(
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 -1 2 3 3 4\n",
+        "ply");
+    EXPECT_EQ(read.mesh.triangles, (Triangles{{0, 1, 2}, {2, 1, 3}}));
+    const ReadMesh stitched = must_read(
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n6 0 1 2 3 4 -1\n",
+        "ply");
+    EXPECT_EQ(stitched.mesh.triangles, (Triangles{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}));
+}
+
+TEST(PlyText, NamesTheLineOfWhatIsWrong) {
+    expect_refused(replaced(square, "3 0 2 3", "3 0 2 4"), "ply", 16, "names vertex 4 of 4");
+    expect_refused(replaced(square, "3 0 2 3", "3 0 -1 3"), "ply", 16, "names vertex -1 of 4");
+    expect_refused(replaced(square, "3 0 2 3", "3 0 1.5 3"), "ply", 16, "names vertex 1.5 of 4");
+    expect_refused(replaced(square, "3 0 2 3", "-3 0 2 3"), "ply", 16, "length -3 of a list");
+    expect_refused(replaced(square, "3 0 2 3", "1e300 0 2 3"), "ply", 16, "past the end");
+    expect_refused(replaced(square, "3 0 2 3", "nan 0 2 3"), "ply", 16, "length nan");
+    expect_refused(replaced(square, "3 0 2 3", "3 0 2"), "ply", 17, "ends before the last element");
+    expect_refused(replaced(square, "1 1 0", "1 nan 0"), "ply", 13, "vertex 2 is not a finite number");
+    expect_refused(replaced(square, "1 1 0", "1 b 0"), "ply", 13, "found \"b\"");
+    expect_refused(replaced(square, "vertex 4", "vertex 4000000000"), "ply", 11, "rows of vertex");
+    expect_refused(replaced(square, "face 2", "face 4000000000"), "ply", 15, "rows of face");
+    expect_refused(replaced(square, "face 2", "face 0"), "ply", 0, "has no facets");
+}
+
+TEST(PlyHeader, NamesTheLineOfWhatIsWrong) {
+    expect_refused(replaced(square, "ascii", "ebcdic"), "ply", 2, "none of ascii");
+    expect_refused(replaced(square, "format ascii 1.0\n", ""), "ply", 9, "names no format");
+    expect_refused(replaced(square, "float z", "half z"), "ply", 7, "half");
+    expect_refused(replaced(square, "element face", "element vertex"), "ply", 8, "twice");
+    expect_refused(replaced(square, "face 2", "face two"), "ply", 8, "a name and a count");
+    expect_refused(replaced(square, "face 2", "face -2"), "ply", 8, "a name and a count");
+    expect_refused(replaced(square, "comment", "commment"), "ply", 3, "\"commment\"");
+    expect_refused(replaced(square, "end_header", "comment"), "ply", 11, "\"0\"");
+    expect_refused(replaced(square, "float z", "float w"), "ply", 11, "no property z");
+    expect_refused(replaced(square, "vertex_indices", "corners"), "ply", 15, "no list vertex_indices");
+    expect_refused("ply\nformat ascii 1.0\nproperty float x\nend_header\n", "ply", 3, "before any element");
+    expect_refused("plyx\n", "ply", 1, "does not begin");
+}
+
+/// Writes values in either byte order.
+template <std::endian order>
+struct Binary {
+    std::string text;
+    template <class T>
+    Binary& add(std::initializer_list<double> values) {
+        for (const double value : values) {
+            std::byte bytes[sizeof(T)];
+            store<T, order>(bytes, static_cast<T>(value));
+            text.append(reinterpret_cast<const char*>(bytes), sizeof bytes);
+        }
+        return *this;
+    }
+};
+
+template <std::endian order>
+std::string binary_header(const std::string& vertex, const std::string& face) {
+    return std::string("ply\nformat binary_") + (order == std::endian::little ? "little" : "big") +
+           "_endian 1.0\nelement vertex 4\n" + vertex + "element face 2\n" + face + "end_header\n";
+}
+
+template <std::endian order, class Real, class Count, class Index>
+void expect_binary_square(const char* real, const char* count, const char* index) {
+    const std::string of_real = std::string("property ") + real + " ";
+    const std::string list = std::string("property list ") + count + " " + index + " vertex_indices\n";
+    Binary<order> plain;
+    plain.template add<Real>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    for (const auto& face : {std::array{0, 1, 2}, std::array{0, 2, 3}})
+        plain.template add<Count>({3}).template add<Index>(
+            {double(face[0]), double(face[1]), double(face[2])});
+    expect_square(binary_header<order>(of_real + "x\n" + of_real + "y\n" + of_real + "z\n", list) +
+                  plain.text);
+
+    // The same among other properties, in another order.
+    Binary<order> mixed;
+    for (const Vec3& vertex : square_vertices)
+        mixed.template add<std::uint8_t>({200})
+            .template add<Real>({vertex.z, vertex.x})
+            .template add<double>({std::nan("")})
+            .template add<Real>({vertex.y});
+    for (const auto& face : {std::array{0, 1, 2}, std::array{0, 2, 3}})
+        mixed.template add<std::int16_t>({-1})
+            .template add<Count>({3})
+            .template add<Index>({double(face[0]), double(face[1]), double(face[2])})
+            .template add<std::uint32_t>({2})
+            .template add<float>({1, 2});
+    expect_square(binary_header<order>("property uchar red\n" + of_real + "z\n" + of_real +
+                                           "x\nproperty double q\n" + of_real + "y\n",
+                                       "property short flags\n" + list + "property list uint float uv\n") +
+                  mixed.text);
+}
+
+TEST(PlyBinary, ReadsEveryTypeInBothByteOrders) {
+    constexpr std::endian little = std::endian::little, big = std::endian::big;
+    expect_binary_square<little, float, std::uint8_t, std::int32_t>("float", "uchar", "int");
+    expect_binary_square<big, float, std::uint8_t, std::int32_t>("float32", "uint8", "int32");
+    expect_binary_square<little, double, std::int32_t, std::uint32_t>("double", "int", "uint");
+    expect_binary_square<big, double, std::uint32_t, std::uint16_t>("float64", "uint32", "ushort");
+    expect_binary_square<little, std::int8_t, std::int16_t, std::uint8_t>("char", "short", "uchar");
+    expect_binary_square<big, std::int16_t, std::uint16_t, std::int8_t>("int16", "uint16", "int8");
+    expect_binary_square<little, std::uint32_t, std::int8_t, std::int16_t>("uint", "char", "int16");
+    expect_binary_square<big, std::int32_t, std::int8_t, std::uint32_t>("int32", "int8", "uint32");
+}
+
+TEST(PlyBinary, FindsTheBodyAfterAnyLineEnd) {
+    // The first byte of the body is a line feed: the float 1.4e-44 + … in little-endian bytes 0a 00 00 00.
+    const float first = std::bit_cast<float>(std::uint32_t{10});
+    Binary<std::endian::little> body;
+    body.add<float>({double{first}, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    for (int i = 0; i < 2; ++i) body.add<std::uint8_t>({3}).add<std::int32_t>({0, 1, 2});
+    const std::string header = binary_header<std::endian::little>(
+        "property float x\nproperty float y\nproperty float z\n", "property list uchar int vertex_indices\n");
+    for (const char* end : {"\n", "\r\n", "\r"})
+        EXPECT_EQ(must_read(replaced(header, "\n", end) + body.text, "ply").mesh.vertices[0].x,
+                  double{first});
+}
+
+TEST(PlyBinary, ReadsPolygonsBetweenTriangles) {
+    Binary<std::endian::little> body;
+    body.add<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    body.add<std::uint8_t>({3}).add<std::int32_t>({0, 1, 2}).add<std::uint8_t>({4}).add<std::int32_t>(
+        {0, 1, 2, 3});
+    const ReadMesh read =
+        must_read(binary_header<std::endian::little>("property float x\nproperty float y\nproperty float z\n",
+                                                     "property list uchar int vertex_indices\n") +
+                      body.text,
+                  "ply");
+    EXPECT_EQ(read.mesh.triangles.size(), 3u);
+    EXPECT_EQ(read.polygon_of_triangle, (std::vector<std::uint32_t>{0, 1, 1}));
+}
+
+TEST(PlyBinary, RefusesEveryTruncationAndEveryBadIndex) {
+    const std::string file = write_text(awkward_mesh(), "ply");
+    const std::size_t body = file.find("end_header") + 11;
+    for (std::size_t size = body; size < file.size(); ++size) {
+        const Result<ReadMesh> read = read_text(std::string_view(file).substr(0, size), "ply");
+        ASSERT_FALSE(read) << size;
+        EXPECT_NE(read.error().place.byte, Place::no_byte) << read.error().describe();
+    }
+    for (const char* index : {"\xff\xff\xff\xff", "\x04\0\0\0", "\0\0\0\x80"}) {
+        std::string bad = file;
+        bad.replace(bad.size() - 4, 4, std::string_view(index, 4));
+        const Result<ReadMesh> read = read_text(bad, "ply");
+        ASSERT_FALSE(read);
+        EXPECT_THAT(read.error().sentence, testing::HasSubstr("face 3 names vertex"));
+    }
+    std::string bad = file;
+    bad.replace(body, 8, std::string_view("\0\0\0\0\0\0\xf0\x7f", 8));
+    EXPECT_THAT(read_text(bad, "ply").error().sentence,
+                testing::HasSubstr("vertex 0 is not a finite number"));
+}
+
+TEST(PlyPoints, MayKeepNumbersThatAreNotFinite) {
+    const std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n1 2 3\nnan 0 inf\n";
+    const Result<FileMesh> read = read_ply(bytes_of(text), {}, NonFinite::keep);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->vertices[0], (Vec3{1, 2, 3}));
+    EXPECT_TRUE(std::isnan(read->vertices[1].x));
+    EXPECT_EQ(read->vertices[1].z, std::numeric_limits<double>::infinity());
+}
+
+TEST(PlyWriter, ReadsBackAsTheSameDoubles) {
+    const mesh::Mesh mesh = awkward_mesh();
+    for (const Encoding encoding : {Encoding::automatic, Encoding::ascii}) {
+        const std::string text = write_text(mesh, "ply", encoding);
+        const ReadMesh read = must_read(text, "ply");
+        EXPECT_EQ(read.mesh.vertices, mesh.vertices);
+        EXPECT_TRUE(std::signbit(read.mesh.vertices[0].z));
+        EXPECT_EQ(read.mesh.triangles, mesh.triangles);
+        EXPECT_THAT(text, testing::HasSubstr("property double x"));
+    }
+}
+
+TEST(PlyWriter, StoresFloatsWhenThatLosesNothing) {
+    mesh::Mesh mesh = awkward_mesh();
+    for (Vec3& vertex : mesh.vertices)
+        for (int axis = 0; axis < 3; ++axis) vertex[axis] = double{static_cast<float>(vertex[axis])};
+    const std::string text = write_text(mesh, "ply");
+    EXPECT_THAT(text, testing::HasSubstr("property float x"));
+    EXPECT_EQ(must_read(text, "ply").mesh.vertices, mesh.vertices);
+}
+
+}  // namespace
+}  // namespace octavo::io
