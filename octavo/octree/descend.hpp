@@ -46,7 +46,7 @@
 //
 // and an output one with
 //
-//     void split(const Cell&);                              // a node; what lies in it follows
+//     void split(const Cell&, const Description&, const Workspace&);    // a node; what lies in it follows
 //     void leaf(const Cell&, const Restricted<Description>&, const Workspace&);
 //     void merge(const Cell&, Color);   // the eight octants of the cell, just given, are leaves of one
 //     decided
@@ -113,7 +113,7 @@ concept DescentProblem = requires(const P& problem, const Cell& cell, typename P
     problem.restrict_to_children(cell, description, workspace, children);
     { problem.weight(description) } -> std::convertible_to<std::size_t>;
     { problem.transfer(cell, description, workspace, workspace) } -> std::same_as<typename P::Description>;
-    output.split(cell);
+    output.split(cell, description, workspace);
     output.leaf(cell, children[0], workspace);
     output.merge(cell, Color::white);
     output.append(std::move(output));
@@ -131,7 +131,10 @@ struct DescentOptions {
 /// The usual output: the nodes as a DF code, white and black siblings merged.
 class DfOutput {
   public:
-    void split(const Cell&) { code_.append(Node::split); }
+    template <class Description, class Workspace>
+    void split(const Cell&, const Description&, const Workspace&) {
+        code_.append(Node::split);
+    }
     template <class Description, class Workspace>
     void leaf(const Cell&, const Restricted<Description>& leaf, const Workspace&) {
         code_.append(leaf.node);
@@ -221,8 +224,8 @@ class Descent {
             return Node::split;
         }
         Children<Description> children;
+        output.split(cell, description, workspace);
         problem_.restrict_to_children(cell, description, workspace, children);
-        output.split(cell);
         if (cell.level + 1 == depth_) {
             for (Restricted<Description>& child : children)
                 if (child.node == Node::split) child.node = Node::gray;

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include <octavo/mesh/mesh.hpp>
+
+// Slow and obviously right geometry in unlimited numbers: the oracle of octrees and inside answers. It shares no
+// formula with the library: overlap is by clipping in rationals, winding numbers are by rays in oblique directions
+// among points that are all scaled to integers.
+
+namespace octavo::tests {
+
+using Rational = boost::multiprecision::cpp_rational;
+using RationalPoint = std::array<Rational, 3>;
+
+inline RationalPoint rational(exact::Point p) { return {p.x, p.y, p.z}; }
+
+/// The part of a convex polygon where coordinate `axis` times `sense` is at least `bound` times `sense`.
+inline std::vector<RationalPoint> clipped(const std::vector<RationalPoint>& polygon, std::size_t axis,
+                                          const Rational& bound, int sense) {
+    std::vector<RationalPoint> result;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const RationalPoint &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        const Rational a = sense * (p[axis] - bound), b = sense * (q[axis] - bound);
+        if (a >= 0) result.push_back(p);
+        if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
+            const Rational t = a / (a - b);
+            RationalPoint cut;
+            for (std::size_t k = 0; k < 3; ++k) cut[k] = p[k] + t * (q[k] - p[k]);
+            cut[axis] = bound;
+            result.push_back(cut);
+        }
+    }
+    return result;
+}
+
+/// The closed triangle's part in the closed box, as a polygon that may be degenerate; empty when there is none.
+inline std::vector<RationalPoint> part_in_box(const std::array<exact::Point, 3>& triangle, exact::Point low,
+                                              exact::Point high) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [least, greatest] = std::minmax({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+        if (greatest < low[axis] || least > high[axis]) return {};
+    }
+    std::vector<RationalPoint> polygon{rational(triangle[0]), rational(triangle[1]), rational(triangle[2])};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        polygon = clipped(polygon, axis, low[static_cast<int>(axis)], 1);
+        polygon = clipped(polygon, axis, high[static_cast<int>(axis)], -1);
+    }
+    return polygon;
+}
+
+/// True when the triangle meets the open box: the mean of the part in the closed box is then a point of it.
+inline bool meets_open_box(const std::array<exact::Point, 3>& triangle, exact::Point low, exact::Point high) {
+    const std::vector<RationalPoint> part = part_in_box(triangle, low, high);
+    if (part.empty()) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Rational mean = 0;
+        for (const RationalPoint& p : part) mean += p[axis];
+        mean /= part.size();
+        if (mean <= low[static_cast<int>(axis)] || mean >= high[static_cast<int>(axis)]) return false;
+    }
+    return true;
+}
+
+/// True when the triangle meets the box without its high sides: the mean of the part in the closed box lies below
+/// every high side that does not hold the whole part.
+inline bool meets_half_open_box(const std::array<exact::Point, 3>& triangle, exact::Point low,
+                                exact::Point high) {
+    const std::vector<RationalPoint> part = part_in_box(triangle, low, high);
+    if (part.empty()) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Rational mean = 0;
+        for (const RationalPoint& p : part) mean += p[axis];
+        if (mean / part.size() >= high[static_cast<int>(axis)]) return false;
+    }
+    return true;
+}
+
+using Integer = boost::multiprecision::cpp_int;
+using IntegerPoint = std::array<Integer, 3>;
+
+/// A surface whose coordinates are multiplied by `scale`, so that points with that denominator are integers.
+struct ScaledSurface {
+    std::vector<std::array<IntegerPoint, 3>> triangles;
+
+    ScaledSurface(const mesh::LatticeMesh& mesh, const Integer& scale) {
+        const auto scaled = [&](mesh::VertexIndex vertex) {
+            const exact::Point p = mesh.points[vertex];
+            return IntegerPoint{p.x * scale, p.y * scale, p.z * scale};
+        };
+        for (const mesh::Triangle& t : mesh.triangles)
+            triangles.push_back({scaled(t[0]), scaled(t[1]), scaled(t[2])});
+    }
+};
+
+/// Where a point is: on a facet, or else its winding number.
+struct Place {
+    bool on_facet = false;
+    int winding = 0;
+};
+
+/// By a ray in an oblique direction; one that meets an edge is given up for the next.
+inline Place place_of(const ScaledSurface& surface, const IntegerPoint& p) {
+    const auto minus = [](const IntegerPoint& a, const IntegerPoint& b) {
+        return IntegerPoint{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    };
+    const auto cross = [](const IntegerPoint& a, const IntegerPoint& b) {
+        return IntegerPoint{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    const auto dot = [](const IntegerPoint& a, const IntegerPoint& b) -> Integer {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    };
+    for (int attempt = 0;; ++attempt) {
+        const IntegerPoint d{1000003 + 7919 * attempt, 777767 - 104729 * attempt,
+                             500009 + 31 * attempt * attempt};
+        int winding = 0;
+        bool retry = false;
+        for (const auto& [a0, b0, c0] : surface.triangles) {
+            const IntegerPoint a = minus(a0, p), b = minus(b0, p), c = minus(c0, p);
+            const IntegerPoint n = cross(minus(b, a), minus(c, a));
+            if (n[0] == 0 && n[1] == 0 && n[2] == 0) continue;
+            const int height = dot(a, n).sign();
+            if (height == 0) {
+                // In the plane: on the facet iff on the inner side of each edge.
+                if (dot(n, cross(a, b)).sign() >= 0 && dot(n, cross(b, c)).sign() >= 0 &&
+                    dot(n, cross(c, a)).sign() >= 0)
+                    return {true, 0};
+                continue;
+            }
+            const int along = dot(d, n).sign();
+            const int ab = dot(d, cross(a, b)).sign(), bc = dot(d, cross(b, c)).sign(),
+                      ca = dot(d, cross(c, a)).sign();
+            const bool hit = along != 0 && ab * along >= 0 && bc * along >= 0 && ca * along >= 0;
+            if (along == 0) retry = true;
+            if (!hit || along != height) continue;  // beside it, or behind the start
+            if (ab == 0 || bc == 0 || ca == 0) retry = true;
+            winding += along;
+        }
+        if (!retry) return {false, winding};
+    }
+}
+
+}  // namespace octavo::tests
