@@ -73,7 +73,7 @@ TEST(BuildFromMesh, ColorsEveryCellAsRationalRaysDoOnDegenerateOverlappingSolids
         const OctreeStats stats = built->octree.stats();
         leaves[0] += stats.white, leaves[1] += stats.black, leaves[2] += stats.gray;
     }
-    for (const std::uint64_t count : leaves) EXPECT_GT(count, 100u) << "every colour must have been tried";
+    for (const std::uint64_t count : leaves) EXPECT_GT(count, 50u) << "every colour must have been tried";
 }
 
 TEST(BuildFromMesh, GivesABoxAlignedWithCellsNoGrayCellsAtAll) {
