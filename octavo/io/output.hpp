@@ -56,7 +56,7 @@ class Output {
     void remember(const char* what);
 
     // Larger writes gain nothing; smaller ones cost system calls.
-    static constexpr std::size_t step = std::size_t{1} << 20;
+    static constexpr std::size_t step = std::size_t{1} << 16;
 
     std::vector<char> buffer_;
     std::size_t filled_ = 0;
