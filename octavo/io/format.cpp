@@ -5,6 +5,7 @@
 #include <octavo/io/ply.hpp>
 #include <octavo/io/stl.hpp>
 #include <octavo/io/text_scanner.hpp>
+#include <octavo/io/three_mf.hpp>
 
 namespace octavo::io {
 namespace {
@@ -23,6 +24,7 @@ constexpr Format formats[] = {
     {"obj", "Wavefront OBJ", true, without_options<read_obj>, write_obj},
     {"ply", "PLY, text or binary of either byte order", true, read_ply_mesh, write_ply},
     {"off", "Geomview OFF, text or binary", true, without_options<read_off>, write_off},
+    {"3mf", "3D Manufacturing Format", false, read_three_mf, write_three_mf},
 };
 
 bool looks_like_obj(Bytes bytes) {
