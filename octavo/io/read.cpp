@@ -2,10 +2,12 @@
 #include <limits>
 #include <new>
 
+#include <octavo/io/assimp_import.hpp>
 #include <octavo/io/file_mesh.hpp>
 #include <octavo/io/format.hpp>
 #include <octavo/io/input.hpp>
 #include <octavo/io/read.hpp>
+#include <octavo/mesh/triangulate.hpp>
 
 namespace octavo::io {
 namespace {
@@ -25,42 +27,50 @@ Error unknown_format(const std::string& name) {
     return {ErrorCode::unsupported, "the format \"" + name + "\" is not known; " + known, {}};
 }
 
-Result<Found> found_by(const Format& format, Bytes bytes, const ReadOptions& options,
-                       const Context& context) {
-    Result<FileMesh> file = format.read(bytes, options, context);
+Result<Found> named(Result<FileMesh> file, std::string_view format) {
     if (!file) return std::move(file).error();
-    return Found{std::move(*file), std::string(format.name)};
+    return Found{std::move(*file), std::string(format)};
 }
 
-/// Reads with the stated format, or with the one that the content shows. Memory that runs out is the file's
-/// fault here: counts are checked against its size, but a large file may still not fit.
+/// The name of the format to read with: the stated one, else what the content shows; empty when it shows none.
+std::string format_of(Bytes bytes, const ReadOptions& options) {
+    if (!options.format.empty()) return extension_of("." + options.format);
+    if (const Format* const ours = sniff_mesh_format(bytes)) return std::string(ours->name);
+    return text_of(bytes).starts_with("glTF") ? "glb" : "";
+}
+
+/// Memory that runs out is the file's fault here: counts are checked against its size, but a large file may
+/// still not fit.
 Result<Found> find_mesh(Bytes bytes, const ReadOptions& options, const Context& context) try {
     if (bytes.empty()) return Error{ErrorCode::bad_input, "is empty", {}};
-    const Format* const format =
-        options.format.empty() ? sniff_mesh_format(bytes) : mesh_format_named(options.format);
-    if (!format) return unknown_format(options.format);
-    return found_by(*format, bytes, options, context);
+    const std::string name = format_of(bytes, options);
+    if (const Format* const ours = mesh_format_named(name))
+        return named(ours->read(bytes, options, context), name);
+    if (assimp_reads(name)) return named(read_by_assimp(bytes, name, options, context), name);
+    return unknown_format(name);
 } catch (const std::bad_alloc&) {
     return Error{ErrorCode::limit, "does not fit into memory", {}};
+}
+
+Error in_file(Error error, const std::string& path) {
+    error.place.file = path;
+    return error;
 }
 
 Result<Found> find_mesh(const std::string& path, const ReadOptions& options, const Context& context) {
     const Result<ByteBlock> block = read_bytes(path, context);
     if (!block) return block.error();
-    ReadOptions named = options;
-    if (named.format.empty() && path != "-" && mesh_format_named(extension_of(path)))
-        named.format = extension_of(path);
-    Result<Found> found = find_mesh(block->bytes(), named, context);
-    if (found) return found;
-    Error error = std::move(found).error();
-    error.place.file = path;
-    return error;
-}
-
-/// Splits a polygon into triangles that share its first corner.
-void add_fan(std::span<const mesh::VertexIndex> corners, std::vector<mesh::Triangle>& triangles) {
-    for (std::size_t i = 2; i < corners.size(); ++i)
-        triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    ReadOptions chosen = options;
+    const std::string extension = path == "-" ? "" : extension_of(path);
+    if (chosen.format.empty() && (mesh_format_named(extension) || assimp_reads(extension)))
+        chosen.format = extension;
+    // These formats spread over several files, which assimp finds from the path.
+    const bool by_path = path != "-" && !chosen.format.empty() && !mesh_format_named(chosen.format) &&
+                         chosen.format == extension;
+    Result<Found> found = by_path ? named(read_by_assimp(path, chosen, context), extension)
+                                  : find_mesh(block->bytes(), chosen, context);
+    if (!found) return in_file(std::move(found).error(), path);
+    return found;
 }
 
 std::vector<std::string> remarks(const FileMesh& file) {
@@ -73,6 +83,24 @@ std::vector<std::string> remarks(const FileMesh& file) {
 
 Error no_facets() { return {ErrorCode::bad_input, "has no facets", {}}; }
 Error too_large() { return {ErrorCode::limit, "has more vertices or facets than 32 bits number", {}}; }
+
+/// Splits the faces into triangles and counts those that are no simple polygons.
+void triangulate(const FileMesh& file, ReadMesh& result) {
+    mesh::Triangulator triangulator;
+    std::size_t crossing = 0;
+    for (std::size_t face = 0; face < file.faces.size(); ++face) {
+        const std::span<const mesh::VertexIndex> corners = file.faces.corners(face);
+        result.triangulated += corners.size() > 3;
+        const mesh::Triangulation split = triangulator(file.vertices, corners);
+        crossing += split.shape == mesh::PolygonShape::crossing;
+        result.mesh.triangles.insert(result.mesh.triangles.end(), split.triangles.begin(),
+                                     split.triangles.end());
+        result.polygon_of_triangle.resize(result.mesh.triangles.size(), static_cast<std::uint32_t>(face));
+    }
+    if (crossing > 0)
+        result.warnings.push_back(std::to_string(crossing) +
+                                  " polygons cross themselves; their triangles overlap");
+}
 
 Result<ReadMesh> to_mesh(Found found) {
     FaceList& faces = found.file.faces;
@@ -87,13 +115,9 @@ Result<ReadMesh> to_mesh(Found found) {
         result.mesh.triangles = std::move(faces.triangles());
     } else {
         if (faces.size() > most_indices) return too_large();
-        for (std::size_t face = 0; face < faces.size(); ++face) {
-            const std::span<const mesh::VertexIndex> corners = faces.corners(face);
-            result.triangulated += corners.size() > 3;
-            add_fan(corners, result.mesh.triangles);
-            result.polygon_of_triangle.resize(result.mesh.triangles.size(), static_cast<std::uint32_t>(face));
-        }
+        triangulate(found.file, result);
     }
+    if (result.mesh.triangles.empty()) return no_facets();  // all were polygons without area
     if (result.mesh.triangles.size() > most_indices) return too_large();
     result.mesh.vertices = std::move(found.file.vertices);
     return result;
@@ -125,10 +149,8 @@ Result<ReadMesh> read_mesh(const std::string& path, const ReadOptions& options, 
     Result<Found> found = find_mesh(path, options, context);
     if (!found) return std::move(found).error();
     Result<ReadMesh> mesh = to_mesh(std::move(*found));
-    if (mesh) return mesh;
-    Error error = std::move(mesh).error();
-    error.place.file = path;
-    return error;
+    if (!mesh) return in_file(std::move(mesh).error(), path);
+    return mesh;
 }
 
 Result<ReadMesh> read_mesh(Bytes bytes, const ReadOptions& options, const Context& context) {
@@ -142,10 +164,8 @@ Result<ReadPolygons> read_polygons(const std::string& path, const ReadOptions& o
     Result<Found> found = find_mesh(path, options, context);
     if (!found) return std::move(found).error();
     Result<ReadPolygons> polygons = to_polygons(std::move(*found));
-    if (polygons) return polygons;
-    Error error = std::move(polygons).error();
-    error.place.file = path;
-    return error;
+    if (!polygons) return in_file(std::move(polygons).error(), path);
+    return polygons;
 }
 
 Result<ReadPolygons> read_polygons(Bytes bytes, const ReadOptions& options, const Context& context) {

@@ -40,7 +40,7 @@ std::string file_text(const std::string& path) {
 }
 
 TEST(ReadMesh, TellsTheFormatFromTheContent) {
-    for (const char* format : {"stl", "obj", "ply", "off"})
+    for (const char* format : {"stl", "obj", "ply", "off", "3mf"})
         for (const Encoding encoding : {Encoding::binary, Encoding::ascii}) {
             const std::string text = write_text(awkward_mesh(), format, encoding);
             EXPECT_EQ(must_read(text, "").format, format);
@@ -50,7 +50,7 @@ TEST(ReadMesh, TellsTheFormatFromTheContent) {
         const Result<ReadMesh> read = read_text(text, "");
         ASSERT_FALSE(read);
         EXPECT_EQ(read.error().code, ErrorCode::unsupported);
-        EXPECT_THAT(read.error().sentence, testing::HasSubstr("stl, obj, ply, off"));
+        EXPECT_THAT(read.error().sentence, testing::HasSubstr("stl, obj, ply, off, 3mf"));
     }
     EXPECT_EQ(read_text("", "").error().code, ErrorCode::bad_input);
 }
@@ -115,13 +115,13 @@ TEST(ReadMesh, ReadsTheOverlappingSpheres) {
 
 TEST(WriteMesh, WritesAllFormatsByExtension) {
     const Folder folder;
-    for (const char* name : {"m.stl", "m.obj", "m.PLY", "m.off"}) {
+    for (const char* name : {"m.stl", "m.obj", "m.PLY", "m.off", "m.3mf"}) {
         const Result<WriteReport> report = write_mesh(folder / name, awkward_mesh());
         ASSERT_TRUE(report) << report.error().describe();
         EXPECT_EQ(report->bytes, std::filesystem::file_size(folder / name));
         EXPECT_EQ(read_mesh(folder / name)->mesh.triangles, awkward_mesh().triangles);
     }
-    EXPECT_EQ(folder.files(), 4u);
+    EXPECT_EQ(folder.files(), 5u);
 }
 
 TEST(WriteMesh, ReplacesAFileOnlyWhenAllWentWell) {
@@ -154,7 +154,7 @@ TEST(WriteMesh, RefusesUnknownFormatsAndLostFolders) {
         const Result<WriteReport> report = write_mesh(folder / name, awkward_mesh());
         ASSERT_FALSE(report);
         EXPECT_EQ(report.error().code, ErrorCode::unsupported);
-        EXPECT_THAT(report.error().sentence, testing::HasSubstr("stl, obj, ply, off"));
+        EXPECT_THAT(report.error().sentence, testing::HasSubstr("stl, obj, ply, off, 3mf"));
     }
     EXPECT_EQ(write_mesh("-", awkward_mesh()).error().code, ErrorCode::unsupported);
     EXPECT_EQ(write_mesh(folder / "no/such/m.stl", awkward_mesh()).error().code, ErrorCode::io);
@@ -172,14 +172,14 @@ TEST(WriteMesh, TellsOfAFullDisk) {
 TEST(WriteMesh, RefusesCoordinatesThatAreNotFinite) {
     mesh::Mesh mesh = awkward_mesh();
     mesh.vertices[1].y = std::nan("");
-    for (const char* format : {"stl", "obj", "ply", "off"}) {
+    for (const char* format : {"stl", "obj", "ply", "off", "3mf"}) {
         const WriteOptions options{.format = format};
         EXPECT_EQ(write_mesh(mesh, options).error().code, ErrorCode::limit);
     }
 }
 
 TEST(WriteMesh, WritesAnEmptySolidThatReadsBackAsOneWithoutFacets) {
-    for (const char* format : {"stl", "obj", "ply", "off"}) {
+    for (const char* format : {"stl", "obj", "ply", "off", "3mf"}) {
         const std::string text = write_text({}, format);
         EXPECT_THAT(read_text(text, format).error().sentence, testing::HasSubstr("has no facets"));
     }
