@@ -70,9 +70,9 @@ TEST(Zip, ReadsStoredEntriesWithDataDescriptors) {
 }
 
 TEST(Zip, RefusesBombsThatLieAboutTheirSize) {
-    const std::string file = archive_of({{"bomb", std::string(50'000'000, '\0')}});
+    const std::string file = archive_of({{"bomb", std::string(3'000'000, '\0')}});
     const std::size_t directory = file.rfind("PK\x01\x02");
-    for (const std::uint32_t claimed : {0u, 10u, 49'999'999u, 50'000'001u, 0x7fffffffu}) {
+    for (const std::uint32_t claimed : {0u, 10u, 2'999'999u, 3'000'001u, 0x7fffffffu}) {
         std::string lying = file;
         set_long(lying, directory + 24, claimed);
         const Result<ZipReader> zip = ZipReader::open(bytes_of(lying));
