@@ -23,18 +23,16 @@ Line::Line(const Plane& first, const Plane& second) {
 
 std::optional<TriplePoint> intersect(const Line& line, const Plane& plane) {
     static_assert(budget::triple_weight < Int192::bits - 1 && budget::triple_numerator < Int192::bits - 1);
-    Int192 w;
-    std::array<Int192, 3> x;
+    const WideInt<1> a(plane.a()), b(plane.b()), c(plane.c());
     const WideInt<2> d(plane.d());
-    for (int axis = 0; axis < 3; ++axis) {
-        const WideInt<2> direction(line.direction(axis));
-        const int i = after(axis), j = before(axis);
-        w += multiply<3>(direction, WideInt<1>(plane.normal(axis)));
-        x[axis] = multiply<3>(line.moment(j), WideInt<1>(plane.normal(i))) -
-                  multiply<3>(line.moment(i), WideInt<1>(plane.normal(j))) - multiply<3>(d, direction);
-    }
+    const WideInt<2> mx(line.direction(0)), my(line.direction(1)), mz(line.direction(2));
+    const Int192 &kx = line.moment(0), &ky = line.moment(1), &kz = line.moment(2);
+
+    const Int192 w = multiply<3>(mx, a) + multiply<3>(my, b) + multiply<3>(mz, c);
     if (w == Int192{}) return std::nullopt;
-    return TriplePoint(x[0], x[1], x[2], w);
+    return TriplePoint(multiply<3>(kz, b) - multiply<3>(ky, c) - multiply<3>(mx, d),
+                       multiply<3>(kx, c) - multiply<3>(kz, a) - multiply<3>(my, d),
+                       multiply<3>(ky, a) - multiply<3>(kx, b) - multiply<3>(mz, d), w);
 }
 
 std::optional<TriplePoint> intersect(const Plane& first, const Plane& second, const Plane& third) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include <octavo/base/result.hpp>
 #include <octavo/base/vec3.hpp>
@@ -17,7 +18,9 @@
 // input that already lies on the grid (short floats often do).
 //
 // Invariant: `fit` leaves at least one free unit on each side of the content, so that the half-open universe
-// [0, 2^26)^3 strictly contains it. The content's longest side spans between 2^25 and 2^26 units.
+// [0, 2^26)^3 strictly contains it. The content's longest side spans between 2^25 - 3 and 2^26 - 3 units, unless
+// the content lies so far from the world's origin that doubles there are coarser; then the unit is the coarsest
+// spacing of doubles in the content, and what the input could tell apart stays apart.
 // Not guaranteed: detail finer than half a unit (1.5e-8 of the universe); SnapReport says what was moved.
 
 namespace octavo::exact {
@@ -27,12 +30,12 @@ class Lattice {
     Lattice() = default;
 
     /// The finest lattice whose universe strictly contains `content`.
-    /// Errors: bad_input when a bound is not finite; limit when the content lies so far from the world's
-    /// origin, for its size, that the lattice's origin has no exact double (beyond 2^52 units).
+    /// Errors: bad_input when a bound is not finite; limit when the longest side is below 2^-975 (but not 0) or
+    /// above 2^926.
     static Result<Lattice> fit(const Box3& content);
 
     /// A lattice with unit 2^exponent and this origin, in units; both as stored in a file. The origin must
-    /// satisfy |origin| <= 2^52 and the exponent lie in [-1000, 900], or bad_input comes back.
+    /// lie in [-2^53, 2^53 - 2^26 + 1] and the exponent in [-1000, 900], or bad_input comes back.
     static Result<Lattice> from_parts(int exponent, std::array<std::int64_t, 3> origin);
 
     double unit() const { return unit_; }
@@ -41,6 +44,10 @@ class Lattice {
 
     /// The nearest lattice point, ties to even. `p` must lie in the content that the lattice was fitted to.
     Point snap(Vec3 p) const;
+
+    /// The unit cell that holds a world position, exactly: cell <= p < cell + 1 in units, in each coordinate.
+    /// None when the position lies outside the universe or is not a number.
+    std::optional<Point> cell_at(Vec3 p) const;
 
     /// The world position of a lattice point; exact.
     Vec3 to_world(Point p) const {

@@ -38,7 +38,7 @@ LinearForm::LinearForm(std::int64_t a, std::int64_t b, std::int64_t c, int128 d,
 }
 
 LinearForm LinearForm::of(const Lattice& lattice, const Plane& plane) {
-    // n.(p / unit - origin) + d, times the unit. The origin has at most 53 bits, so the new offset has 109.
+    // n.(p / unit - origin) + d, times the unit; |origin| <= 2^53.
     static_assert(budget::sum(4, budget::normal + 54) < offset_bits);
     const auto& origin = lattice.origin();
     const int128 shift =

@@ -4,6 +4,11 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
+#ifdef __x86_64__
+#include <x86intrin.h>
+#endif
 
 #include <octavo/exact/int128.hpp>
 #include <octavo/exact/sign.hpp>
@@ -20,6 +25,57 @@
 
 namespace octavo::exact {
 
+namespace detail {
+
+/// Calls body(0), body(1), … body(Count - 1) with constants. GCC 12 unrolls loops only after it has decided what
+/// lives in registers; written as loops, limbs travel through memory and three planes take twice as long to meet.
+template <int Count, class Body>
+constexpr void unrolled(const Body& body) {
+    [&]<int... Index>(std::integer_sequence<int, Index...>) {
+        (body(std::integral_constant<int, Index>{}), ...);
+    }
+    (std::make_integer_sequence<int, Count>{});
+}
+
+/// a * b + c + d, which cannot overflow 128 bits; the high half is left in `carry`.
+constexpr std::uint64_t multiply_add(std::uint64_t a, std::uint64_t b, std::uint64_t c,
+                                     std::uint64_t& carry) {
+    const uint128 sum = uint128{a} * b + c + carry;
+    carry = static_cast<std::uint64_t>(sum >> 64);
+    return static_cast<std::uint64_t>(sum);
+}
+
+// GCC 12 keeps a carry in the flags only through the processor's own intrinsics.
+constexpr std::uint64_t add(std::uint64_t a, std::uint64_t b, unsigned char& carry) {
+#ifdef __x86_64__
+    if (!std::is_constant_evaluated()) {
+        unsigned long long sum;
+        carry = _addcarry_u64(carry, a, b, &sum);
+        return sum;
+    }
+#endif
+    const uint128 sum = uint128{a} + b + carry;
+    carry = static_cast<unsigned char>(sum >> 64);
+    return static_cast<std::uint64_t>(sum);
+}
+
+constexpr std::uint64_t subtract(std::uint64_t a, std::uint64_t b, unsigned char& borrow) {
+#ifdef __x86_64__
+    if (!std::is_constant_evaluated()) {
+        unsigned long long difference;
+        borrow = _subborrow_u64(borrow, a, b, &difference);
+        return difference;
+    }
+#endif
+    const uint128 difference = uint128{a} - b - borrow;
+    borrow = static_cast<unsigned char>(difference >> 64) & 1;
+    return static_cast<std::uint64_t>(difference);
+}
+
+constexpr std::uint64_t mask(bool ones) { return -static_cast<std::uint64_t>(ones); }
+
+}  // namespace detail
+
 template <int Limbs>
 struct WideInt {
     static_assert(Limbs >= 1);
@@ -31,17 +87,17 @@ struct WideInt {
     constexpr WideInt(int number) : WideInt(std::int64_t{number}) {}
     constexpr WideInt(std::int64_t number) {
         limb[0] = static_cast<std::uint64_t>(number);
-        fill_from(1, number < 0);
+        fill_from<1>(number < 0);
     }
     constexpr WideInt(int128 number) requires(Limbs >= 2) {
         limb[0] = static_cast<std::uint64_t>(number);
         limb[1] = static_cast<std::uint64_t>(number >> 64);
-        fill_from(2, number < 0);
+        fill_from<2>(number < 0);
     }
     template <int Fewer>
     requires(Fewer < Limbs) constexpr WideInt(const WideInt<Fewer>& number) {
-        for (int i = 0; i < Fewer; ++i) limb[i] = number.limb[i];
-        fill_from(Fewer, number.negative());
+        detail::unrolled<Fewer>([&](auto i) { limb[i] = number.limb[i]; });
+        fill_from<Fewer>(number.negative());
     }
 
     constexpr bool negative() const { return limb[Limbs - 1] >> 63; }
@@ -49,27 +105,19 @@ struct WideInt {
     constexpr Sign sign() const {
         if (negative()) return Sign::negative;
         std::uint64_t any = 0;
-        for (const std::uint64_t part : limb) any |= part;
+        detail::unrolled<Limbs>([&](auto i) { any |= limb[i]; });
         return any ? Sign::positive : Sign::zero;
     }
 
     constexpr WideInt& operator+=(const WideInt& other) {
-        std::uint64_t carry = 0;
-        for (int i = 0; i < Limbs; ++i) {
-            const uint128 sum = uint128{limb[i]} + other.limb[i] + carry;
-            limb[i] = static_cast<std::uint64_t>(sum);
-            carry = static_cast<std::uint64_t>(sum >> 64);
-        }
+        unsigned char carry = 0;
+        detail::unrolled<Limbs>([&](auto i) { limb[i] = detail::add(limb[i], other.limb[i], carry); });
         return *this;
     }
 
     constexpr WideInt& operator-=(const WideInt& other) {
-        std::uint64_t borrow = 0;
-        for (int i = 0; i < Limbs; ++i) {
-            const uint128 difference = uint128{limb[i]} - other.limb[i] - borrow;
-            limb[i] = static_cast<std::uint64_t>(difference);
-            borrow = static_cast<std::uint64_t>(difference >> 64) & 1;
-        }
+        unsigned char borrow = 0;
+        detail::unrolled<Limbs>([&](auto i) { limb[i] = detail::subtract(limb[i], other.limb[i], borrow); });
         return *this;
     }
 
@@ -98,8 +146,9 @@ struct WideInt {
     }
 
   private:
-    constexpr void fill_from(int begin, bool ones) {
-        for (int i = begin; i < Limbs; ++i) limb[i] = ones ? ~std::uint64_t{0} : 0;
+    template <int Begin>
+    constexpr void fill_from(bool ones) {
+        detail::unrolled<Limbs - Begin>([&](auto i) { limb[i + Begin] = detail::mask(ones); });
     }
 };
 
@@ -109,44 +158,45 @@ using Int256 = WideInt<4>;
 /// The number if `sign` is not negative, else its negative; without a branch.
 template <int Limbs>
 constexpr WideInt<Limbs> negate_if(bool negative, WideInt<Limbs> number) {
-    const std::uint64_t mask = negative ? ~std::uint64_t{0} : 0;
-    std::uint64_t carry = mask & 1;
-    for (std::uint64_t& part : number.limb) {
-        const uint128 sum = uint128{part ^ mask} + carry;
-        part = static_cast<std::uint64_t>(sum);
-        carry = static_cast<std::uint64_t>(sum >> 64);
-    }
+    const std::uint64_t mask = detail::mask(negative);
+    unsigned char carry = negative;
+    detail::unrolled<Limbs>([&](auto i) { number.limb[i] = detail::add(number.limb[i] ^ mask, 0, carry); });
     return number;
 }
 
 /// first * second modulo 2^(64 Limbs): exact whenever the product fits Limbs limbs with its sign.
 template <int Limbs, int N, int M>
 constexpr WideInt<Limbs> multiply(const WideInt<N>& first, const WideInt<M>& second) {
-    if constexpr (Limbs > N + M) return multiply<N + M>(first, second);
-    WideInt<Limbs> product;
-    for (int i = 0; i < N && i < Limbs; ++i) {
-        std::uint64_t carry = 0;
-        for (int j = 0; j < M && i + j < Limbs; ++j) {
-            const uint128 sum = uint128{first.limb[i]} * second.limb[j] + product.limb[i + j] + carry;
-            product.limb[i + j] = static_cast<std::uint64_t>(sum);
-            carry = static_cast<std::uint64_t>(sum >> 64);
-        }
-        if (i + M < Limbs) product.limb[i + M] = carry;
+    if constexpr (Limbs > N + M) {
+        return multiply<N + M>(first, second);
+    } else {
+        WideInt<Limbs> product;
+        detail::unrolled<N>([&](auto i) {
+            std::uint64_t carry = 0;
+            detail::unrolled<M>([&](auto j) {
+                if constexpr (i + j < Limbs)
+                    product.limb[i + j] =
+                        detail::multiply_add(first.limb[i], second.limb[j], product.limb[i + j], carry);
+            });
+            if constexpr (i + M < Limbs) product.limb[i + M] = carry;
+        });
+        // As an unsigned number, a negative factor is too large by 2^(64 N): take the other one away again there.
+        const std::uint64_t first_mask = detail::mask(first.negative());
+        unsigned char borrow = 0;
+        detail::unrolled<M>([&](auto i) {
+            if constexpr (i + N < Limbs)
+                product.limb[i + N] =
+                    detail::subtract(product.limb[i + N], second.limb[i] & first_mask, borrow);
+        });
+        const std::uint64_t second_mask = detail::mask(second.negative());
+        borrow = 0;
+        detail::unrolled<N>([&](auto i) {
+            if constexpr (i + M < Limbs)
+                product.limb[i + M] =
+                    detail::subtract(product.limb[i + M], first.limb[i] & second_mask, borrow);
+        });
+        return product;
     }
-    // As an unsigned number, a negative factor is too large by 2^(64 N): take the other factor away again
-    // there.
-    const auto subtract_above = [&product](bool negative, int shift, const auto& other, int count) {
-        const std::uint64_t mask = negative ? ~std::uint64_t{0} : 0;
-        std::uint64_t borrow = 0;
-        for (int i = 0; i < count && i + shift < Limbs; ++i) {
-            const uint128 difference = uint128{product.limb[i + shift]} - (other.limb[i] & mask) - borrow;
-            product.limb[i + shift] = static_cast<std::uint64_t>(difference);
-            borrow = static_cast<std::uint64_t>(difference >> 64) & 1;
-        }
-    };
-    subtract_above(first.negative(), N, second, M);
-    subtract_above(second.negative(), M, first, N);
-    return product;
 }
 
 /// The whole product.
