@@ -3,33 +3,12 @@
 #include <fstream>
 #include <iterator>
 
-#include <unistd.h>
-
+#include "folder.hpp"
 #include "from_text.hpp"
 #include "models.hpp"
 
 namespace octavo::io {
 namespace {
-
-/// A folder that goes away with the test.
-class Folder {
-  public:
-    Folder()
-        : path_(std::filesystem::temp_directory_path() /
-                ("octavo-io-test-" + std::to_string(::getpid()) + "-" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    std::string operator/(const char* name) const { return (path_ / name).string(); }
-    std::size_t files() const {
-        return static_cast<std::size_t>(
-            std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
-    }
-
-  private:
-    std::filesystem::path path_;
-};
 
 void write_file(const std::string& path, std::string_view text) {
     std::ofstream(path, std::ios::binary).write(text.data(), static_cast<std::streamsize>(text.size()));
