@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octavo/base/context.hpp>
+#include <octavo/base/result.hpp>
+#include <octavo/classic/closed_surface.hpp>
+#include <octavo/classic/facet.hpp>
+#include <octavo/exact/lattice.hpp>
+#include <octavo/mesh/mesh.hpp>
+
+// Inside, on or outside: exact answers for arbitrary double points about a solid bounded by triangles.
+//
+// The solid is the snapped mesh, inside is winding number > 0, and query points are not rounded: a point one unit in
+// the last place off a facet gets the right answer. Idea: an octree whose leaves are white, black, or gray with the
+// few facets that touch them and the winding number of their low corner. White and black leaves answer at once. In a
+// gray one the point is reached from the low corner by three axis-parallel steps, whose crossings with those facets
+// change the winding number (simulation of simplicity, see classic/crossing.hpp); the signs are those of linear forms
+// at double points, by a filter first and exactly where that fails.
+//
+// Locating is made of few dependent loads: a dense table of the top levels, and below it bricks of 4×4×4 cells. A
+// batch runs many points through these loads side by side, so that their cache misses overlap.
+//
+// Rules at the rim: a point with an infinite coordinate is outside; one with a NaN lies nowhere and is reported as
+// outside too.
+//
+// Source: J. R. Rossignac and J. K. Wu 1987 and the classic point location in octrees; the leaf test is ours.
+
+namespace octavo::query {
+
+enum class Side : std::int8_t {
+    inside = -1,
+    on = 0,  ///< on a facet of the surface, also on one that lies inside the solid because shells overlap
+    outside = 1,
+};
+
+struct InsideOptions {
+    classic::OpenPolicy open = classic::OpenPolicy::reject;
+    /// Cells with at most this many facets are not split further, nor those with up to four times as many that all
+    /// share a corner. Measured: with 4 a query near the surface of a scan
+    /// costs least; 2 doubles the memory for a few per cent, 8 costs a third more time.
+    int leaf_facets = 4;
+    /// The deepest level, at most 21. Around a vertex with more facets than `leaf_facets` splitting would not end.
+    int depth = 12;
+};
+
+class InsideQuery {
+  public:
+    /// Errors: those of snapping; bad_input, not_a_solid (open, under OpenPolicy::reject), limit, cancelled.
+    static Result<InsideQuery> build(const mesh::LatticeMesh& mesh, const InsideOptions& options = {},
+                                     const Context& context = {});
+    static Result<InsideQuery> build(const mesh::Mesh& mesh, const InsideOptions& options = {},
+                                     const Context& context = {});
+
+    /// Where a point of the world lies.
+    Side operator()(Vec3 point) const;
+
+    /// The same for many points; in their order, parallel, and faster a point.
+    std::vector<Side> operator()(std::span<const Vec3> points, const Context& context = {}) const;
+
+    const exact::Lattice& lattice() const { return lattice_; }
+    std::size_t memory_bytes() const;
+
+    struct Leaf {
+        std::int32_t winding;      ///< at the low corner, displaced
+        std::uint32_t begin, end;  ///< in `references_`
+        std::array<std::int32_t, 3> low;
+    };
+
+  private:
+    friend class InsideAssembly;
+    struct Located;
+
+    /// A cell of the table or of a brick: two bits of kind and an index.
+    using Entry = std::uint32_t;
+    static constexpr Entry kind_mask = 3U << 30, white = 0, black = 1U << 30, gray = 2U << 30,
+                           brick = 3U << 30;
+    static constexpr int brick_levels = 2, brick_cells = 1 << (3 * brick_levels);
+
+    bool place(Vec3 point, Located& located) const;
+    Entry top_entry(std::uint64_t code) const;
+    Side resolve(Entry entry, const Located& located) const;
+
+    exact::Lattice lattice_;
+    double inverse_unit_ = 1;
+    int top_level_ = 0;
+    std::vector<Entry> top_;     ///< the cells of `top_level_` in Morton order
+    std::vector<Entry> bricks_;  ///< 64 cells a brick, in Morton order
+    std::vector<Leaf> leaves_;
+    std::vector<std::uint32_t> references_;  ///< facets of the leaves
+    std::vector<classic::Facet> facets_;
+};
+
+/// One-off: builds an InsideQuery and asks it. Worth it from some hundred points on.
+Result<std::vector<Side>> contains(const mesh::Mesh& mesh, std::span<const Vec3> points,
+                                   const InsideOptions& options = {}, const Context& context = {});
+
+}  // namespace octavo::query

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <octavo/base/vec3.hpp>
+#include <octavo/classic/facet.hpp>
+#include <octavo/exact/lattice.hpp>
+
+// A double point against the facets of one leaf: on one of them, or else the winding number there.
+
+namespace octavo::query {
+
+/// A point of the world as the lattice sees it: world = (origin + whole + part) · unit with 0 ≤ part < 1. The whole
+/// numbers are exact; the parts are exact too unless the division by the unit underflows, so they serve filters only
+/// and exact signs are taken at `world`.
+struct LatticePlace {
+    Vec3 world;
+    std::array<std::int32_t, 3> whole;
+    std::array<double, 3> part;
+};
+
+struct LeafAnswer {
+    bool on_facet = false;
+    std::int32_t winding = 0;
+};
+
+/// `facets` must hold all that touch the half-open leaf with low corner `low`, and the place must lie in that leaf;
+/// `winding` is that of the displaced low corner.
+LeafAnswer test_in_leaf(const LatticePlace& place, const std::array<std::int32_t, 3>& low,
+                        std::int32_t winding, std::span<const std::uint32_t> references,
+                        const std::vector<classic::Facet>& facets, const exact::Lattice& lattice);
+
+}  // namespace octavo::query

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <classic/rational.hpp>
+#include <classic/solids.hpp>
+#include <gtest/gtest.h>
+#include <models.hpp>
+
+#include <octavo/io/read.hpp>
+#include <octavo/mesh/snap.hpp>
+#include <octavo/query/inside.hpp>
+
+namespace octavo::query {
+namespace {
+
+using tests::Integer;
+
+/// Doubles as exact multiples of 2^-1074: any finite double is one.
+constexpr int bits = 1074;
+Integer exact_multiple(double value) {
+    int exponent = 0;
+    const double mantissa = std::frexp(value, &exponent);
+    const auto whole = static_cast<std::int64_t>(std::ldexp(mantissa, 53));
+    const int shift = exponent - 53 + bits;
+    return shift >= 0 ? Integer(whole) << shift : Integer(whole) >> -shift;
+}
+
+/// The oracle: the surface in world coordinates, as multiples of 2^-scale_bits, with everything in range exact.
+class Oracle {
+  public:
+    Oracle(const mesh::LatticeMesh& mesh, int scale_bits)
+        : scale_bits_(scale_bits), surface_(world_surface(mesh, scale_bits)) {}
+
+    Side operator()(Vec3 p) const {
+        const auto scaled = [&](double v) { return Integer(exact_multiple(v) >> (bits - scale_bits_)); };
+        const tests::Place place = tests::place_of(surface_, {scaled(p.x), scaled(p.y), scaled(p.z)});
+        return place.on_facet ? Side::on : place.winding > 0 ? Side::inside : Side::outside;
+    }
+
+  private:
+    static tests::ScaledSurface world_surface(const mesh::LatticeMesh& mesh, int scale_bits) {
+        tests::ScaledSurface surface(mesh, Integer(1));
+        const auto& origin = mesh.lattice.origin();
+        for (auto& triangle : surface.triangles)
+            for (auto& corner : triangle)
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    corner[axis] = (corner[axis] + origin[axis]) << (scale_bits + mesh.lattice.exponent());
+        return surface;
+    }
+
+    int scale_bits_;
+    tests::ScaledSurface surface_;
+};
+
+Context with_threads(int threads) {
+    Context context;
+    context.threads = threads;
+    return context;
+}
+
+/// Points that matter for a surface: on vertices, edges and facets, a breath away from them, in walls of cells, and
+/// anywhere.
+std::vector<Vec3> telling_points(const mesh::LatticeMesh& mesh, std::size_t count, unsigned seed) {
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::uint64_t bound) { return random() % bound; };
+    const exact::Lattice& lattice = mesh.lattice;
+    Box3 bounds;
+    for (const exact::Point& p : mesh.points) bounds.add(lattice.to_world(p));
+    std::vector<Vec3> points;
+    while (points.size() < count) {
+        const mesh::Triangle& t = mesh.triangles[below(mesh.triangles.size())];
+        const Vec3 a = lattice.to_world(mesh.points[t[0]]), b = lattice.to_world(mesh.points[t[1]]),
+                   c = lattice.to_world(mesh.points[t[2]]);
+        Vec3 p;
+        switch (below(6)) {
+            case 0:
+                p = a;
+                break;
+            case 1:
+                p = 0.5 * (a + b);
+                break;  // on an edge: halves are exact
+            case 2:
+                p = 0.25 * (a + b + 2.0 * c);
+                break;  // on the facet
+            case 3: {   // near the facet
+                const double u = std::ldexp(static_cast<double>(below(1 << 30)), -31),
+                             v = std::ldexp(static_cast<double>(below(1 << 30)), -31);
+                p = (1 - u - v) * a + u * b + v * c;
+                break;
+            }
+            case 4: {  // a corner of some cell
+                const std::int32_t mask = -(exact::universe_side >> below(12));
+                const auto place = [&] {
+                    return static_cast<std::int32_t>(below(exact::universe_side)) & mask;
+                };
+                p = lattice.to_world({place(), place(), place()});
+                break;
+            }
+            default:
+                for (int axis = 0; axis < 3; ++axis)
+                    p[axis] = bounds.low[axis] + std::ldexp(static_cast<double>(below(1ULL << 50)), -50) *
+                                                     (bounds.high[axis] - bounds.low[axis]);
+        }
+        if (below(3) == 0) {
+            const int axis = static_cast<int>(below(3));
+            p[axis] = std::nextafter(p[axis], below(2) ? 1e300 : -1e300);
+        }
+        points.push_back(p);
+    }
+    return points;
+}
+
+struct Tally {
+    std::size_t inside = 0, on = 0, outside = 0;
+    void add(Side side) { ++(side == Side::inside ? inside : side == Side::on ? on : outside); }
+};
+
+Tally expect_answers_of_the_oracle(const mesh::LatticeMesh& mesh, const std::vector<Vec3>& points,
+                                   int scale_bits, const InsideOptions& options = {}) {
+    const Result<InsideQuery> query = InsideQuery::build(mesh, options, with_threads(1));
+    EXPECT_TRUE(query) << query.error().describe();
+    const Oracle oracle(mesh, scale_bits);
+    const std::vector<Side> batch = (*query)(points, with_threads(1));
+    Tally tally;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Side expected = oracle(points[i]);
+        tally.add(expected);
+        EXPECT_EQ((*query)(points[i]), expected) << points[i].x << " " << points[i].y << " " << points[i].z;
+        EXPECT_EQ(batch[i], expected);
+        if (::testing::Test::HasFailure()) break;
+    }
+    return tally;
+}
+
+TEST(InsideQuery, AgreesWithRationalRaysOnDegenerateOverlappingSolids) {
+    Tally sum;
+    for (unsigned seed = 0; seed < 150u * static_cast<unsigned>(tests::effort()); ++seed) {
+        tests::GridPoints grid(seed, seed % 2 ? 1 << (1 + seed / 2 % 5) : 13);
+        mesh::LatticeMesh bag = tests::random_bag(grid);
+        // Lattices near the origin and far from it, coarse and fine.
+        if (seed % 3)
+            bag.lattice =
+                *exact::Lattice::from_parts(static_cast<int>(seed % 40) - 30, {-100000, 70000000, -5});
+        InsideOptions options;
+        options.leaf_facets = static_cast<int>(seed % 5);
+        options.depth = 1 + static_cast<int>(seed % 9);
+        const Tally tally = expect_answers_of_the_oracle(bag, telling_points(bag, 100, seed), 1074, options);
+        sum.inside += tally.inside, sum.on += tally.on, sum.outside += tally.outside;
+        ASSERT_FALSE(HasFailure()) << "seed " << seed;
+    }
+    EXPECT_GT(sum.inside, 500u);
+    EXPECT_GT(sum.on, 1000u);
+    EXPECT_GT(sum.outside, 1000u);
+}
+
+TEST(InsideQuery, AgreesWithRationalRaysOnSpheres) {
+    mesh::LatticeMesh spheres = tests::sphere({33000001, 33333333, 33500007}, 30000000, 3);
+    tests::append(spheres, tests::reversed(tests::sphere({33000001, 33333333, 33500007}, 20000000, 3)));
+    tests::append(spheres, tests::sphere({20000000, 20000000, 20000000}, 15000000, 2));
+    const std::size_t count = 1000u * static_cast<std::size_t>(tests::effort());
+    const Tally tally = expect_answers_of_the_oracle(spheres, telling_points(spheres, count, 1), 100);
+    EXPECT_GT(std::min({tally.inside, tally.on, tally.outside}), count / 10);
+}
+
+TEST(InsideQuery, SeesTheSmallestDoublesBesideAFacet) {
+    // The facet x = 0 of a box, and points a denormal away from it: no scaling may lose them.
+    for (const int exponent : {-30, 0, 900}) {
+        mesh::LatticeMesh box = tests::box({1 << 20, 1 << 20, 1 << 20}, {1 << 22, 1 << 22, 1 << 22});
+        box.lattice = *exact::Lattice::from_parts(exponent, {-(1 << 20), -(1 << 21), -(1 << 21)});
+        const InsideQuery query = *InsideQuery::build(box);
+        const double least = std::numeric_limits<double>::denorm_min();
+        EXPECT_EQ(query({least, 0, 0}), Side::inside) << exponent;
+        EXPECT_EQ(query({0, 0, 0}), Side::on);
+        EXPECT_EQ(query({-0.0, least, -least}), Side::on);
+        EXPECT_EQ(query({-least, 0, 0}), Side::outside);
+    }
+}
+
+TEST(InsideQuery, AnswersOutsideTheUniverseAndForNonNumbersByRule) {
+    const InsideQuery query = *InsideQuery::build(tests::box({0, 0, 0}, {1000, 1000, 1000}));
+    const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
+    for (const double far : {infinity, -infinity, nan, 1e300, -1e300, 1e9, -1.0, 67108864.0, 9.3e18}) {
+        EXPECT_EQ(query({far, 5, 5}), Side::outside) << far;
+        EXPECT_EQ(query({5, 5, far}), Side::outside) << far;
+        EXPECT_EQ(query(std::vector<Vec3>{{5, far, 5}, {5, 5, 5}})[0], Side::outside);
+    }
+    EXPECT_EQ(query({5, 5, 5}), Side::inside);
+    EXPECT_EQ(query({0, 5, 5}), Side::on) << "a facet in the universe's low side";
+    EXPECT_EQ(InsideQuery::build(mesh::LatticeMesh{})->operator()({0, 0, 0}), Side::outside) << "nothing";
+}
+
+TEST(InsideQuery, RefusesOpenSurfacesAndClosesThemOnRequest) {
+    mesh::LatticeMesh cube = tests::box({1000, 1000, 1000}, {60000000, 60000000, 60000000});
+    cube.triangles.erase(cube.triangles.begin() + 2, cube.triangles.begin() + 4);
+    EXPECT_EQ(InsideQuery::build(cube).error().code, ErrorCode::not_a_solid);
+    InsideOptions options;
+    options.open = classic::OpenPolicy::winding;
+    const InsideQuery query = *InsideQuery::build(cube, options);
+    EXPECT_EQ(query({5e6, 5e6, 5e6}), Side::inside);
+    EXPECT_EQ(query({5e6, 5e6, 60000001}), Side::outside);
+}
+
+TEST(InsideQuery, GivesTheSameAnswersForAnyNumberOfThreads) {
+    const mesh::LatticeMesh ball = tests::sphere({33000001, 33333333, 33500007}, 30000000, 6);
+    const InsideQuery query = *InsideQuery::build(ball, {}, with_threads(1));
+    const InsideQuery parallel = *InsideQuery::build(ball, {}, with_threads(3));
+    EXPECT_EQ(query.memory_bytes(), parallel.memory_bytes());
+    const std::vector<Vec3> points = telling_points(ball, 20000, 5);
+    const std::vector<Side> sides = query(points, with_threads(1));
+    EXPECT_EQ(query(points, with_threads(3)), sides);
+    EXPECT_EQ(parallel(points, with_threads(2)), sides);
+}
+
+TEST(Contains, AnswersInOneCallForAMeshOfDoubles) {
+    const mesh::LatticeMesh ball = tests::sphere({500, 500, 500}, 300, 4);
+    mesh::Mesh mesh;
+    for (const exact::Point& p : ball.points)
+        mesh.vertices.push_back({0.125 * p.x, 0.125 * p.y, 0.125 * p.z});
+    mesh.triangles = ball.triangles;
+    const std::vector<Vec3> points{{62.5, 62.5, 62.5}, {1, 1, 1}, mesh.vertices[17]};
+    EXPECT_EQ(*contains(mesh, points), (std::vector<Side>{Side::inside, Side::outside, Side::on}));
+    mesh.vertices[3].x = std::nan("");
+    EXPECT_FALSE(contains(mesh, points));
+}
+
+TEST(InsideQuery, AgreesWithRationalRaysOnRealModels) {
+    for (const char* name : {"classic/spot.obj", "mechanical/part.off"}) {
+        OCTAVO_NEEDS_MODEL(name);
+        const mesh::Mesh read = io::read_mesh((tests::models_folder() / name).string())->mesh;
+        const mesh::LatticeMesh mesh = mesh::snap(read)->mesh;
+        const std::size_t count = 100u * static_cast<std::size_t>(tests::effort());
+        expect_answers_of_the_oracle(mesh, telling_points(mesh, count, 3), 120);
+        ASSERT_FALSE(HasFailure()) << name;
+    }
+}
+
+}  // namespace
+}  // namespace octavo::query
