@@ -11,6 +11,7 @@
 
 #include "folder.hpp"
 #include "from_text.hpp"
+#include <octavo/io/hyper_tree_grid.hpp>
 #include <octavo/io/oct.hpp>
 #include <octavo/io/vtu.hpp>
 
@@ -157,6 +158,57 @@ TEST(Vtu, HoldsTheChosenLeavesAsHexahedra) {
             ++cell;
         });
         EXPECT_EQ(cell, cells);
+    }
+}
+
+/// Rebuilds the DF code from the arrays of a hyper tree grid, as a reader of VTK would walk them.
+octree::DfCode code_in(const VtkFile& file, std::size_t bits) {
+    const auto descriptor = file.array<std::uint8_t>("Descriptor");
+    const auto counts = file.array<std::int64_t>("NbVerticesByLevel");
+    const auto colors = file.array<std::uint8_t>("color");
+    EXPECT_EQ(descriptor.size(), (bits + 7) / 8);
+    std::vector<std::size_t> next{0};  // the node of each level that comes next, level after level
+    for (const std::int64_t count : counts) next.push_back(next.back() + static_cast<std::size_t>(count));
+    octree::DfCode code;
+    const std::function<void(std::size_t)> walk = [&](std::size_t level) {
+        const std::size_t node = next[level]++;
+        const bool split = node < bits && (descriptor[node / 8] >> (7 - node % 8) & 1) != 0;
+        code.append(split ? octree::Node::split : static_cast<octree::Node>(colors[node]));
+        if (split)
+            for (int i = 0; i < 8; ++i) walk(level + 1);
+    };
+    walk(0);
+    return code;
+}
+
+TEST(HyperTreeGrid, HoldsTheTreeLevelByLevel) {
+    const Folder folder;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const octree::Octree octree = random_octree(seed, 5);
+        ASSERT_TRUE(write_hyper_tree_grid(folder / "a.htg", octree));
+        const VtkFile file(folder / "a.htg");
+        const pugi::xml_node grid = file.root().child("HyperTreeGrid");
+        const pugi::xml_node tree = grid.child("Trees").child("Tree");
+        EXPECT_EQ(tree.attribute("NumberOfVertices").as_ullong(), octree.code().size());
+        const pugi::xml_node descriptor = tree.find_child_by_attribute("DataArray", "Name", "Descriptor");
+        EXPECT_EQ(code_in(file, descriptor.attribute("NumberOfTuples").as_ullong()), octree.code());
+        const Vec3 low = octree.lattice().to_world({0, 0, 0});
+        EXPECT_EQ(file.array<double>("YCoordinates"),
+                  (std::vector<double>{low.y, low.y + octree.lattice().unit() * exact::universe_side}));
+    }
+}
+
+TEST(HyperTreeGrid, MasksTheLeavesThatAreNotChosen) {
+    const Folder folder;
+    const octree::Octree octree = random_octree(4, 5);
+    for (const LeafChoice& choice : {LeafChoice{}, LeafChoice{.white = true}, LeafChoice{.black = false}}) {
+        ASSERT_TRUE(write_hyper_tree_grid(folder / "a.htg", octree, choice));
+        std::uint64_t masked = 0;
+        for (const std::uint8_t byte : VtkFile(folder / "a.htg").array<std::uint8_t>("Mask"))
+            masked += static_cast<std::uint64_t>(std::popcount(byte));
+        const octree::OctreeStats stats = octree.stats();
+        EXPECT_EQ(masked,
+                  stats.white * !choice.white + stats.black * !choice.black + stats.gray * !choice.gray);
     }
 }
 
