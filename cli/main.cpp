@@ -1,2 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-int main() { return 0; }
+#include "program.hpp"
+
+int main(int argc, char** argv) { return octavo::cli::Program().main(argc, argv); }

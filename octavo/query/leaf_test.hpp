@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <octavo/base/vec3.hpp>
 #include <octavo/classic/facet.hpp>

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace octavo::cli {
+
+ModelKind kind_of(const std::string& path, const std::string& format) {
+    std::string extension = format.empty() ? std::filesystem::path(path).extension().string() : "." + format;
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".csg") return ModelKind::csg;
+    if (extension == ".oct") return ModelKind::octree;
+    return ModelKind::mesh;
+}
+
+Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const std::string& path,
+                               const std::string& format) {
+    session.inputs.push_back(path);
+    io::ReadOptions options;
+    options.format = format;
+    Result<io::ReadMesh> read = session.timed("read", [&] { return io::read_mesh(path, options, context); });
+    if (read) session.warn(read->warnings);
+    return read;
+}
+
+Result<io::WriteReport> write_mesh(Session& session, const Context& context, const std::string& path,
+                                   const mesh::Mesh& mesh, const io::WriteOptions& options) {
+    if (path == "-") session.stdout_taken = true;
+    Result<io::WriteReport> report =
+        session.timed("write", [&] { return io::write_mesh(path, mesh, options, context); });
+    if (report) session.warn(report->warnings);
+    return report;
+}
+
+Result<mesh::LatticeMesh> snap(Session& session, const mesh::Mesh& mesh) {
+    Result<mesh::Snapped> snapped = session.timed("snap", [&] { return mesh::snap(mesh); });
+    if (!snapped) return std::move(snapped).error();
+    // Half a unit is the most that rounding can do per axis; when that is less than a float of this size can tell,
+    // there is nothing worth a warning.
+    const double size = length(mesh.bounds().extents());
+    if (snapped->report.largest_displacement > size * 6e-8)
+        session.warn(fmt::format("rounding to the lattice moved {} vertices, by at most {:.3g}",
+                                 snapped->report.moved_vertices, snapped->report.largest_displacement));
+    return std::move(snapped->mesh);
+}
+
+Error in_file(Error error, const std::string& path) {
+    if (error.place.file.empty()) error.place.file = path;
+    return error;
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code ignored;
+    return a != "-" && b != "-" && std::filesystem::equivalent(a, b, ignored);
+}
+
+Error would_overwrite(const std::string& path) {
+    Error error{ErrorCode::io, "the output would overwrite the input; name another file", {}};
+    error.place.file = path;
+    return error;
+}
+
+std::string grouped(std::uint64_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, " ");
+    return digits;
+}
+
+}  // namespace octavo::cli

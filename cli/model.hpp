@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "session.hpp"
+#include <octavo/io/read.hpp>
+#include <octavo/io/write.hpp>
+#include <octavo/mesh/snap.hpp>
+
+// What nearly every verb does first and last: read the model that the command line names and write what came of it.
+// Both are timed, and their warnings are passed on.
+
+namespace octavo::cli {
+
+/// What a file's extension says it is, as far as verbs care.
+enum class ModelKind { mesh, csg, octree };
+
+ModelKind kind_of(const std::string& path, const std::string& format);
+
+/// Reads a mesh; remembers `path` among the inputs.
+Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const std::string& path,
+                               const std::string& format = "");
+
+/// Writes a mesh; `path` "-" takes stdout over.
+Result<io::WriteReport> write_mesh(Session& session, const Context& context, const std::string& path,
+                                   const mesh::Mesh& mesh, const io::WriteOptions& options = {});
+
+/// Snaps a mesh to its own lattice, and warns by how much vertices moved if they moved more than float files round.
+Result<mesh::LatticeMesh> snap(Session& session, const mesh::Mesh& mesh);
+
+/// The same error, with the file that it is about.
+Error in_file(Error error, const std::string& path);
+
+/// True when both names lead to the same existing file; then writing would destroy the input.
+bool same_file(const std::string& a, const std::string& b);
+
+/// The error for `same_file`.
+Error would_overwrite(const std::string& path);
+
+/// Three numbers for `--json`.
+inline Json json_of(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
+
+/// 1234567 as "1 234 567", for people.
+std::string grouped(std::uint64_t number);
+
+}  // namespace octavo::cli

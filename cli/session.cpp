@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace octavo::cli {
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+/// The first Ctrl-C asks the work to stop; a second one, from an impatient user, ends the program at once.
+extern "C" void on_interrupt(int) {
+    interrupted.store(true, std::memory_order_relaxed);
+    std::signal(SIGINT, SIG_DFL);
+}
+
+bool is_set(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value && *value;
+}
+
+bool wants_color(const std::string& option, int file) {
+    if (option != "auto") return option == "always";
+    if (is_set("NO_COLOR")) return false;
+    if (is_set("CLICOLOR_FORCE") || is_set("FORCE_COLOR")) return true;
+    const char* terminal = std::getenv("TERM");
+    return isatty(file) && !(terminal && std::string_view(terminal) == "dumb");
+}
+
+ProgressStyle style_of(const CommonOptions& options) {
+    if (options.quiet || options.progress == "none") return ProgressStyle::none;
+    if (options.progress == "bar") return ProgressStyle::bar;
+    if (options.progress == "plain") return ProgressStyle::plain;
+    return isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::none;
+}
+
+Json json_of(const Error& error) {
+    Json json = {{"code", name_of(error.code)}, {"message", error.sentence}};
+    if (!error.place.file.empty()) json["file"] = error.place.file;
+    if (error.place.line) json["line"] = error.place.line;
+    if (error.place.column) json["column"] = error.place.column;
+    if (error.place.byte != Place::no_byte) json["byte"] = error.place.byte;
+    if (!error.place.faces.empty()) json["faces"] = error.place.faces;
+    return json;
+}
+
+}  // namespace
+
+Context Session::context() {
+    std::signal(SIGINT, on_interrupt);
+    if (!bar_)
+        bar_ = std::make_unique<ProgressBar>(style_of(options), wants_color(options.color, STDERR_FILENO));
+    Context context;
+    context.threads = options.threads;
+    context.cancel = &interrupted;
+    context.on_progress = [bar = bar_.get()](std::string_view phase, double done) { bar->show(phase, done); };
+    return context;
+}
+
+void Session::add_timing(const std::string& phase, double seconds) {
+    timings_[phase] = timings_.value(phase, 0.0) + seconds;
+}
+
+int Session::finish(Result<ExitCode> outcome) {
+    if (bar_) bar_->clear();
+    print_messages(outcome);
+    if (options.json && !stdout_taken) {
+        print_json(outcome);
+    } else if (outcome && !stdout_taken && !options.quiet) {
+        std::fwrite(text.data(), 1, text.size(), stdout);
+    }
+    if (std::fflush(stdout) != 0) {
+        fmt::print(stderr, "octavo: cannot write to stdout\n");
+        return static_cast<int>(ExitCode::bad_input);
+    }
+    return static_cast<int>(outcome ? *outcome : exit_code_of(outcome.error().code));
+}
+
+void Session::print_messages(const Result<ExitCode>& outcome) const {
+    const bool colored = wants_color(options.color, STDERR_FILENO);
+    if (!options.quiet)
+        for (const std::string& warning : warnings_)
+            fmt::print(stderr, "octavo: {}warning:{} {}\n", colored ? "\x1b[33m" : "",
+                       colored ? "\x1b[0m" : "", warning);
+    if (!outcome)
+        fmt::print(stderr, "octavo: {}error:{} {}\n", colored ? "\x1b[31m" : "", colored ? "\x1b[0m" : "",
+                   outcome.error().describe());
+}
+
+void Session::print_json(const Result<ExitCode>& outcome) const {
+    Json object = {{"octavo", OCTAVO_VERSION}, {"command", command}, {"inputs", inputs}};
+    if (outcome)
+        object["result"] = result;
+    else
+        object["error"] = json_of(outcome.error());
+    object["timings"] = timings_;
+    object["warnings"] = warnings_;
+    const std::string dumped = object.dump(2, ' ', false, Json::error_handler_t::replace);
+    std::fwrite(dumped.data(), 1, dumped.size(), stdout);
+    std::fputc('\n', stdout);
+}
+
+}  // namespace octavo::cli

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "model.hpp"
+#include "program.hpp"
+#include <octavo/io/columns.hpp>
+#include <octavo/io/points.hpp>
+#include <octavo/query/inside.hpp>
+
+// `octavo contains MODEL POINTS`: on which side of the solid each point lies; −1 inside, 0 on, +1 outside.
+
+namespace octavo::cli {
+namespace {
+
+struct ContainsOptions {
+    std::string model, points, output, model_format, points_format, output_format, open = "reject";
+};
+
+Result<std::vector<query::Side>> sides_of(Session& session, const Context& context,
+                                          const ContainsOptions& options) {
+    Result<io::ReadMesh> read = read_mesh(session, context, options.model, options.model_format);
+    if (!read) return std::move(read).error();
+    session.inputs.push_back(options.points);
+    Result<io::ReadPoints> points = session.timed(
+        "read", [&] { return io::read_points(options.points, {options.points_format}, context); });
+    if (!points) return std::move(points).error();
+    Result<mesh::LatticeMesh> snapped = snap(session, read->mesh);
+    if (!snapped) return in_file(std::move(snapped).error(), options.model);
+    query::InsideOptions asking;
+    asking.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
+    Result<query::InsideQuery> inside =
+        session.timed("build", [&] { return query::InsideQuery::build(*snapped, asking, context); });
+    if (!inside) return in_file(std::move(inside).error(), options.model);
+    return session.timed("query", [&] { return (*inside)(points->points, context); });
+}
+
+Result<ExitCode> contains(Session& session, const ContainsOptions& options) {
+    const Context context = session.context();
+    if (same_file(options.model, options.output) || same_file(options.points, options.output))
+        return would_overwrite(options.output);
+    Result<std::vector<query::Side>> sides = sides_of(session, context, options);
+    if (!sides) return std::move(sides).error();
+    if (context.cancelled()) return Context::cancelled_error();
+
+    std::vector<std::int8_t> column(sides->size());
+    std::transform(sides->begin(), sides->end(), column.begin(),
+                   [](query::Side side) { return static_cast<std::int8_t>(side); });
+    const auto count = [&](int side) {
+        return static_cast<std::uint64_t>(std::count(column.begin(), column.end(), side));
+    };
+    session.result = {{"inside", count(-1)}, {"outside", count(1)}, {"on", count(0)}};
+    session.text = fmt::format("{} points: {} inside, {} on, {} outside\n", grouped(column.size()),
+                               grouped(count(-1)), grouped(count(0)), grouped(count(1)));
+    // Without --json or -o the answers themselves are the data.
+    const std::string output = options.output.empty() && !session.options.json ? "-" : options.output;
+    if (output.empty()) return ExitCode::ok;
+    session.stdout_taken = output == "-";
+    const io::Column side{"side", std::span<const std::int8_t>(column)};
+    io::WriteOptions writing;
+    writing.format = options.output_format;
+    Result<io::WriteReport> written = session.timed("write", [&] {
+        return io::write_columns(output, {&side, 1}, writing, context);
+    });
+    if (!written) return std::move(written).error();
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_contains(Program& program) {
+    const auto options = std::make_shared<ContainsOptions>();
+    CLI::App* verb =
+        program.verb("contains", "Analyse", "Tell for each point whether it is inside, on or outside a solid",
+                     [options](Session& session) { return contains(session, *options); });
+    verb->add_option("MODEL", options->model, "A closed mesh")->required()->type_name("FILE");
+    verb->add_option("POINTS", options->points, "The points: csv, xyz, npy or ply; - is stdin")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("-o,--output", options->output,
+                     "Where the column `side` goes: csv, npy or ply; stdout by default")
+        ->type_name("FILE");
+    verb->add_option("--open", options->open, "An open surface: reject it, or close it and go by winding")
+        ->check(CLI::IsMember({"reject", "winding"}))
+        ->type_name("POLICY");
+    verb->add_option("--format", options->model_format, "Format of MODEL, instead of by its extension")
+        ->type_name("FORMAT");
+    verb->add_option("--points-format", options->points_format,
+                     "Format of POINTS, instead of by its extension")
+        ->type_name("FORMAT");
+    verb->add_option("--to", options->output_format, "Format of the output, instead of by its extension")
+        ->type_name("FORMAT");
+}
+
+}  // namespace octavo::cli

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "model.hpp"
+#include "octree_facts.hpp"
+#include "program.hpp"
+#include <octavo/classic/from_mesh.hpp>
+#include <octavo/io/hyper_tree_grid.hpp>
+#include <octavo/io/oct.hpp>
+#include <octavo/io/vtu.hpp>
+#include <octavo/octree/oct_format.hpp>
+
+// `octavo octree FILE -o OUT.oct`: the exact octree of a solid. The output's extension decides the form: .oct is
+// Octavo's own, .vtu and .htg are for ParaView.
+
+namespace octavo::cli {
+namespace {
+
+struct OctreeOptions {
+    std::string input, output, format, open = "reject";
+    int depth = 8;
+    double precision = 0;
+};
+
+/// The least depth whose cells are no larger than `precision`, in world units.
+Result<int> depth_for(double precision, const exact::Lattice& lattice) {
+    for (int depth = 0; depth <= octree::max_level; ++depth)
+        if (std::ldexp(1.0, lattice.exponent() + exact::coordinate_bits - depth) <= precision) return depth;
+    return Error{
+        ErrorCode::limit,
+        fmt::format("a precision of {:.6g} is finer than the octree's last level, {:.6g}", precision,
+                    std::ldexp(1.0, lattice.exponent() + exact::coordinate_bits - octree::max_level)),
+        {}};
+}
+
+Result<classic::Built> build_from_mesh(Session& session, const Context& context,
+                                       const OctreeOptions& options) {
+    Result<io::ReadMesh> read = read_mesh(session, context, options.input, options.format);
+    if (!read) return std::move(read).error();
+    Result<mesh::LatticeMesh> snapped = snap(session, read->mesh);
+    if (!snapped) return in_file(std::move(snapped).error(), options.input);
+    classic::BuildOptions building;
+    building.depth = options.depth;
+    building.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
+    if (options.precision > 0) {
+        Result<int> depth = depth_for(options.precision, snapped->lattice);
+        if (!depth) return std::move(depth).error();
+        building.depth = *depth;
+    }
+    Result<classic::Built> built =
+        session.timed("build", [&] { return classic::build(*snapped, building, context); });
+    if (!built) return in_file(std::move(built).error(), options.input);
+    return built;
+}
+
+/// Writes the tree in the form that the extension of `path` asks for.
+Result<io::WriteReport> write_tree(const octree::Octree& tree, const std::string& path,
+                                   const Context& context) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension == ".htg") return io::write_hyper_tree_grid(path, tree, {}, context);
+    if (extension == ".vtu") return io::write_vtu(path, tree, {}, context);
+    if (extension == ".oct" || path == "-") return io::write_octree(path, tree, context);
+    return Error{
+        ErrorCode::unsupported, "octrees are written as .oct, .vtu or .htg, and the output is " + path, {}};
+}
+
+void warn_about(Session& session, const classic::BuildReport& report) {
+    if (report.facets_without_area)
+        session.warn(fmt::format("{} facets without area were left out", report.facets_without_area));
+    if (report.closing_facets)
+        session.warn(
+            fmt::format("the surface is open; {} facets were added to close it", report.closing_facets));
+}
+
+Result<ExitCode> make_octree(Session& session, const OctreeOptions& options) {
+    const Context context = session.context();
+    if (same_file(options.input, options.output)) return would_overwrite(options.output);
+    Result<classic::Built> built = build_from_mesh(session, context, options);
+    if (!built) return std::move(built).error();
+    warn_about(session, built->report);
+    if (!options.output.empty()) {
+        session.stdout_taken = options.output == "-";
+        Result<io::WriteReport> written =
+            session.timed("write", [&] { return write_tree(built->octree, options.output, context); });
+        if (!written) return std::move(written).error();
+        session.warn(written->warnings);
+    }
+    const std::size_t bytes = octree::encode(built->octree).size();
+    session.result = json_of(built->octree, bytes);
+    session.result["peak_nodes"] = built->report.peak_nodes;
+    session.result["primitive_tests"] = built->report.primitive_tests;
+    session.text = text_of(built->octree, bytes);
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_octree(Program& program) {
+    const auto options = std::make_shared<OctreeOptions>();
+    CLI::App* verb = program.verb("octree", "Trees", "Build the exact octree of a solid",
+                                  [options](Session& session) { return make_octree(session, *options); });
+    verb->add_option("FILE", options->input, "A closed mesh; - is stdin")->required()->type_name("FILE");
+    verb->add_option("-o,--output", options->output,
+                     "The octree to write: .oct, or .vtu or .htg for ParaView")
+        ->type_name("FILE");
+    CLI::Option* depth =
+        verb->add_option("--depth", options->depth, "The deepest level, 0 to 21; 8 by default")
+            ->check(CLI::Range(0, octree::max_level))
+            ->type_name("N");
+    verb->add_option("--precision", options->precision, "Cells no larger than this, in the model's units")
+        ->check(CLI::PositiveNumber)
+        ->type_name("LENGTH")
+        ->excludes(depth);
+    verb->add_option("--open", options->open, "An open surface: reject it, or close it and go by winding")
+        ->check(CLI::IsMember({"reject", "winding"}))
+        ->type_name("POLICY");
+    verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
+        ->type_name("FORMAT");
+}
+
+}  // namespace octavo::cli

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <octavo/base/vec3.hpp>
+#include <octavo/mesh/mesh.hpp>
+#include <octavo/octree/octree.hpp>
+#include <octavo/render/image.hpp>
+#include <octavo/render/palette.hpp>
+
+// What there is to draw: facets with a colour on either side, and lines. Made from a mesh or from an octree's cells.
+
+namespace octavo::render {
+
+struct Facet {
+    std::array<Vec3, 3> corners;  ///< counter-clockwise seen from the front
+    Color front = palette::solid;
+    Color back = palette::inner;
+};
+
+struct Line {
+    Vec3 from, to;
+    Color color = palette::ink;
+};
+
+struct Scene {
+    std::vector<Facet> facets;
+    std::vector<Line> lines;
+
+    Box3 bounds() const;
+};
+
+/// Which edges of a mesh become lines.
+enum class EdgeLines { none, sharp, all };
+
+struct MeshSceneOptions {
+    EdgeLines edges = EdgeLines::sharp;
+    double sharp_degrees = 30;  ///< `sharp` edges turn by more than this, or have not exactly two facets
+};
+
+Scene scene_of(const mesh::Mesh& mesh, const MeshSceneOptions& options = {});
+
+struct OctreeSceneOptions {
+    /// Cells whose centre lies beyond this world coordinate along `cut_axis` are left out.
+    double cut_at = Box3::infinity;
+    int cut_axis = 0;
+    EdgeLines edges = EdgeLines::all;  ///< `none` leaves out the cells' outlines
+};
+
+/// The walls of the black and gray leaves that a viewer can see: those towards a white leaf, the cut or the outside.
+Scene scene_of(const octree::Octree& tree, const OctreeSceneOptions& options = {});
+
+}  // namespace octavo::render

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <octavo/render/scene.hpp>
+
+namespace octavo::render {
+namespace {
+
+struct EdgeUse {
+    std::uint64_t ends;  // smaller vertex in the high half
+    mesh::FaceIndex face;
+};
+
+std::vector<EdgeUse> edge_uses(const mesh::Mesh& mesh) {
+    std::vector<EdgeUse> uses;
+    uses.reserve(mesh.triangles.size() * 3);
+    for (mesh::FaceIndex face = 0; face < mesh.triangles.size(); ++face)
+        for (int side = 0; side < 3; ++side) {
+            const std::uint64_t a = mesh.triangles[face][side], b = mesh.triangles[face][(side + 1) % 3];
+            uses.push_back({a < b ? a << 32 | b : b << 32 | a, face});
+        }
+    std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
+        return a.ends != b.ends ? a.ends < b.ends : a.face < b.face;
+    });
+    return uses;
+}
+
+Vec3 normal_of(const Facet& facet) {
+    const Vec3 normal = cross(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
+    const double size = length(normal);
+    return size > 0 ? 1 / size * normal : Vec3{};
+}
+
+}  // namespace
+
+Box3 Scene::bounds() const {
+    Box3 box;
+    for (const Facet& facet : facets)
+        for (const Vec3& corner : facet.corners) box.add(corner);
+    for (const Line& line : lines) box.add(line.from), box.add(line.to);
+    return box;
+}
+
+Scene scene_of(const mesh::Mesh& mesh, const MeshSceneOptions& options) {
+    Scene scene;
+    scene.facets.reserve(mesh.triangles.size());
+    for (const mesh::Triangle& triangle : mesh.triangles)
+        scene.facets.push_back(
+            {{mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]}});
+    if (options.edges == EdgeLines::none) return scene;
+
+    const double least_cosine = std::cos(options.sharp_degrees * 3.14159265358979323846 / 180);
+    const std::vector<EdgeUse> uses = edge_uses(mesh);
+    for (std::size_t begin = 0, end; begin < uses.size(); begin = end) {
+        for (end = begin; end < uses.size() && uses[end].ends == uses[begin].ends;) ++end;
+        const bool smooth =
+            end - begin == 2 && dot(normal_of(scene.facets[uses[begin].face]),
+                                    normal_of(scene.facets[uses[begin + 1].face])) >= least_cosine;
+        if (smooth && options.edges == EdgeLines::sharp) continue;
+        scene.lines.push_back(
+            {mesh.vertices[uses[begin].ends >> 32], mesh.vertices[uses[begin].ends & 0xffffffffU]});
+    }
+    return scene;
+}
+
+}  // namespace octavo::render

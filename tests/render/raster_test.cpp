@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <octavo/render/raster.hpp>
+
+namespace octavo::render {
+namespace {
+
+constexpr Color red{1, 0, 0}, green{0, 1, 0};
+
+/// A square across the line of sight at depth y, seen from the front when it faces −y.
+void add_square(Scene& scene, double y, double half, Color color) {
+    const Vec3 a{-half, y, -half}, b{half, y, -half}, c{half, y, half}, d{-half, y, half};
+    scene.facets.push_back({{a, b, c}, color, color});
+    scene.facets.push_back({{a, c, d}, color, color});
+}
+
+Image draw_from_front(const Scene& scene, DrawOptions options) {
+    View view;
+    view.azimuth_degrees = 0;
+    view.elevation_degrees = 0;
+    Result<Camera> camera = Camera::look_at(scene.bounds(), view, options.width, options.height);
+    Result<Image> image = draw(scene, *camera, options);
+    return std::move(*image);
+}
+
+TEST(Draw, TheNearerFacetHidesTheFartherInAnyOrder) {
+    for (const bool near_first : {true, false}) {
+        Scene scene;
+        if (near_first) add_square(scene, -1, 0.5, red);
+        add_square(scene, 1, 1, green);
+        if (!near_first) add_square(scene, -1, 0.5, red);
+        const Image image = draw_from_front(scene, {.width = 100, .height = 100});
+        EXPECT_GT(image.at(50, 50).red, 0.3F);
+        EXPECT_EQ(image.at(50, 50).green, 0.0F);
+        EXPECT_GT(image.at(10, 50).green, 0.3F);
+        EXPECT_EQ(image.at(1, 1), palette::paper);
+    }
+}
+
+TEST(Draw, TheCutRemovesWhatLiesBeyond) {
+    Scene scene;
+    add_square(scene, -1, 1, red);
+    add_square(scene, 1, 1, green);
+    DrawOptions options{.width = 60, .height = 60};
+    options.cut_axis = 0;
+    options.cut_at = 0;
+    const Image image = draw_from_front(scene, options);
+    EXPECT_GT(image.at(15, 30).red, 0.3F);
+    EXPECT_EQ(image.at(45, 30), palette::paper);
+}
+
+TEST(Draw, FacetsSeenFromBehindTakeTheirBackColour) {
+    Scene scene;
+    scene.facets.push_back({{Vec3{-1, 0, -1}, Vec3{1, 0, 1}, Vec3{1, 0, -1}}, red, green});
+    const Image image = draw_from_front(scene, {.width = 60, .height = 60});
+    EXPECT_GT(image.at(40, 45).green, 0.3F);
+    EXPECT_EQ(image.at(40, 45).red, 0.0F);
+}
+
+TEST(Draw, RefusesImpossibleSizes) {
+    Scene scene;
+    add_square(scene, 0, 1, red);
+    const Result<Camera> camera = Camera::look_at(scene.bounds(), {}, 10, 10);
+    EXPECT_FALSE(draw(scene, *camera, {.width = 0, .height = 10}));
+    EXPECT_FALSE(draw(scene, *camera, {.width = 10, .height = 10, .samples = 9}));
+}
+
+TEST(Camera, HasTheWholeOfTheBoundsInThePictureFromEverySide) {
+    const Box3 bounds{{-3, 1, -20}, {5, 2, 0.5}};
+    for (const double perspective : {0.0, 30.0, 90.0})
+        for (double azimuth = -180; azimuth < 180; azimuth += 15)
+            for (double elevation = -90; elevation <= 90; elevation += 15) {
+                const View view{azimuth, elevation, perspective, 0.05};
+                const Result<Camera> camera = Camera::look_at(bounds, view, 400, 300);
+                ASSERT_TRUE(camera);
+                for (int corner = 0; corner < 8; ++corner) {
+                    const Vec3 p = camera->project({corner & 1 ? bounds.high.x : bounds.low.x,
+                                                    corner & 2 ? bounds.high.y : bounds.low.y,
+                                                    corner & 4 ? bounds.high.z : bounds.low.z});
+                    EXPECT_GE(p.x, 400 * 0.05 - 1e-6);
+                    EXPECT_LE(p.x, 400 * 0.95 + 1e-6);
+                    EXPECT_GE(p.y, 300 * 0.05 - 1e-6);
+                    EXPECT_LE(p.y, 300 * 0.95 + 1e-6);
+                }
+            }
+}
+
+TEST(Camera, RefusesEmptyBoundsAndImpossibleViews) {
+    EXPECT_FALSE(Camera::look_at(Box3{}, {}, 10, 10));
+    View view;
+    view.elevation_degrees = 91;
+    EXPECT_FALSE(Camera::look_at(Box3{{0, 0, 0}, {1, 1, 1}}, view, 10, 10));
+}
+
+TEST(SceneOfMesh, DrawsTheSharpEdgesOfACubeButNotItsDiagonals) {
+    mesh::Mesh cube;
+    for (int corner = 0; corner < 8; ++corner)
+        cube.vertices.push_back({double(corner & 1), double(corner >> 1 & 1), double(corner >> 2)});
+    cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    EXPECT_EQ(scene_of(cube).lines.size(), 12U);
+    EXPECT_EQ(scene_of(cube, {.edges = EdgeLines::all}).lines.size(), 18U);
+    EXPECT_EQ(scene_of(cube, {.edges = EdgeLines::none}).lines.size(), 0U);
+}
+
+}  // namespace
+}  // namespace octavo::render

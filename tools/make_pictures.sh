@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Draws the pictures of the documentation with Octavo itself, from parts that it generates.
+#   tools/make_pictures.sh PROGRAM
+set -euo pipefail
+cd "$(dirname "$0")/.."
+octavo() { "$program" "$@" --quiet; }
+program=$1
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+octavo shape housing -o "$scratch/housing.ply"
+octavo shape gear -o "$scratch/gear.ply"
+for depth in 5 6 7; do octavo octree "$scratch/housing.ply" --depth $depth -o "$scratch/housing-$depth.oct"; done
+octavo octree "$scratch/gear.ply" --depth 7 -o "$scratch/gear.oct"
+
+mkdir -p docs/pictures
+octavo render "$scratch/housing.ply" -o docs/pictures/housing.png --size 800x600
+octavo render "$scratch/housing.ply" -o docs/pictures/housing-cut.png --cut x --size 800x600
+octavo render "$scratch/gear.ply" -o docs/pictures/gear.png --size 800x600
+octavo render "$scratch/gear.oct" -o docs/pictures/gear-cells.png --cut z:0.5 --elevation 50 --size 800x600
+for depth in 5 6 7; do
+    octavo render "$scratch/housing-$depth.oct" -o docs/pictures/housing-cells-$depth.png --cut x --size 800x600
+done
+ls -sh docs/pictures
