@@ -14,11 +14,19 @@ struct Variant {
     bool texture = false, colour = false, normal = false, homogeneous = false, dimension = false;
 };
 
-std::optional<Variant> variant_named(std::string_view word) {
+/// The variant that a header word names, and how long that name is: in files of the ModelNet collection the
+/// counts follow without a space ("OFF490 518 0").
+struct HeaderWord {
+    Variant variant;
+    std::size_t size = 0;
+};
+
+std::optional<HeaderWord> header_word(std::string_view word) {
+    std::string_view rest = word;
     Variant variant;
     const auto take = [&](std::string_view prefix) {
-        if (!word.starts_with(prefix)) return false;
-        word.remove_prefix(prefix.size());
+        if (!rest.starts_with(prefix)) return false;
+        rest.remove_prefix(prefix.size());
         return true;
     };
     variant.texture = take("ST");
@@ -26,8 +34,8 @@ std::optional<Variant> variant_named(std::string_view word) {
     variant.normal = take("N");
     variant.homogeneous = take("4");
     variant.dimension = take("n");
-    if (word != "OFF") return {};
-    return variant;
+    if (!take("OFF") || (!rest.empty() && !(rest.front() >= '0' && rest.front() <= '9'))) return {};
+    return HeaderWord{variant, word.size() - rest.size()};
 }
 
 Error not_three_dimensional() {
@@ -218,31 +226,31 @@ class BinaryReader {
 bool looks_like_off(Bytes bytes) {
     TextScanner scanner(text_of(bytes));
     scanner.skip_space_and_comments();
-    return variant_named(scanner.word()).has_value();
+    return header_word(scanner.word()).has_value();
 }
 
 Result<FileMesh> read_off(Bytes bytes, const Context& context) {
     TextScanner scanner(text_of(bytes));
     scanner.skip_space_and_comments();
     const char* const begin = scanner.position();
-    const std::string_view word = scanner.word();
-    const std::optional<Variant> variant = variant_named(word);
-    if (!variant) {
+    const std::optional<HeaderWord> word = header_word(scanner.word());
+    if (!word) {
         // The header word is optional; then the counts come first.
         scanner.go_to(begin);
         if (!(scanner.peek() >= '0' && scanner.peek() <= '9'))
             return scanner.error_here("expected a header word like OFF or COFF, found " + scanner.quoted());
         return TextReader(scanner, {}, context).read();
     }
+    scanner.go_to(begin + word->size);
     const TextScanner after_word = scanner;
     scanner.skip_blanks();
     if (!scanner.at_line_end() && scanner.word() == "BINARY") {
         scanner.skip_line();
         if (scanner.peek() == '\r') scanner.advance();
         if (scanner.peek() == '\n') scanner.advance();
-        return BinaryReader(bytes, scanner.offset(), *variant, context).read();
+        return BinaryReader(bytes, scanner.offset(), word->variant, context).read();
     }
-    return TextReader(after_word, *variant, context).read();
+    return TextReader(after_word, word->variant, context).read();
 }
 
 Result<WriteReport> write_off(Output& output, const mesh::Mesh& mesh, const WriteOptions&) {

@@ -42,6 +42,8 @@ std::string format_of(Bytes bytes, const ReadOptions& options) {
 /// Memory that runs out is the file's fault here: counts are checked against its size, but a large file may
 /// still not fit.
 Result<Found> find_mesh(Bytes bytes, const ReadOptions& options, const Context& context) try {
+    // Some editors mark UTF-8 at the start of text.
+    if (text_of(bytes).starts_with("\xef\xbb\xbf")) bytes = bytes.subspan(3);
     if (bytes.empty()) return Error{ErrorCode::bad_input, "is empty", {}};
     const std::string name = format_of(bytes, options);
     if (const Format* const ours = mesh_format_named(name))

@@ -18,6 +18,7 @@ TEST(Off, TakesTheCountsWhereverTheyStand) {
     expect_square("OFF\n4 2 0\n" + square_body);
     expect_square("OFF 4 2 0\n" + square_body);  // as OpenSCAD 2021.01 writes it
     expect_square("OFF 4 2\n" + square_body);    // edges left out
+    expect_square("OFF4 2 0\n" + square_body);   // as in the ModelNet collection
     expect_square("OFF\n\n# a comment\n4 2 5 # more\n" + square_body);
     expect_square("4 2 0\n" + square_body);  // the header word is optional
     expect_square("# first\nOFF # second\n4 2 0\n# third\n" + replaced(square_body, "\n", " # each\n\n"));

@@ -3,6 +3,9 @@
 #include <fstream>
 #include <iterator>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "folder.hpp"
 #include "from_text.hpp"
 #include "models.hpp"
@@ -32,6 +35,44 @@ TEST(ReadMesh, TellsTheFormatFromTheContent) {
         EXPECT_THAT(read.error().sentence, testing::HasSubstr("stl, obj, ply, off, 3mf"));
     }
     EXPECT_EQ(read_text("", "").error().code, ErrorCode::bad_input);
+}
+
+TEST(ReadMesh, SkipsTheMarkOfUtf8) {
+    for (const char* format : {"stl", "obj", "ply", "off"}) {
+        const std::string text = "\xef\xbb\xbf" + write_text(awkward_mesh(), format, Encoding::ascii);
+        EXPECT_EQ(must_read(text, "").mesh.triangles, awkward_mesh().triangles);
+    }
+    EXPECT_EQ(read_text("\xef\xbb\xbf", "").error().code, ErrorCode::bad_input);
+}
+
+/// Lets descriptor `number` be another file until the end of the block.
+class Redirected {
+  public:
+    Redirected(int number, const std::string& path, int flags) : number_(number), saved_(::dup(number)) {
+        const int file = ::open(path.c_str(), flags, 0666);
+        ::dup2(file, number_);
+        ::close(file);
+    }
+    ~Redirected() {
+        ::dup2(saved_, number_);
+        ::close(saved_);
+    }
+
+  private:
+    int number_, saved_;
+};
+
+TEST(ReadMesh, TakesADashForStandardInputAndOutput) {
+    const Folder folder;
+    {
+        const Redirected output(1, folder / "out", O_WRONLY | O_CREAT);
+        ASSERT_TRUE(write_mesh("-", awkward_mesh(), {.format = "ply"}));
+    }
+    EXPECT_EQ(file_text(folder / "out"), write_text(awkward_mesh(), "ply"));
+    const Redirected input(0, folder / "out", O_RDONLY);
+    const Result<ReadMesh> read = read_mesh("-");
+    ASSERT_TRUE(read) << read.error().describe();
+    EXPECT_EQ(read->mesh.triangles, awkward_mesh().triangles);
 }
 
 TEST(ReadMesh, GoesByExtensionThenByContentUnlessTold) {
