@@ -4,37 +4,110 @@
 namespace octavo::classic {
 namespace {
 
-/// Adds up the crossings of one cell's facets with the steps between the octants' low corners.
-class StepCrossings {
+/// For each set of octants the steps by which they are reached from octant 0.
+constexpr std::array<std::uint8_t, 256> make_paths_table() {
+    std::array<std::uint8_t, 256> table{};
+    for (unsigned octants = 0; octants < 256; ++octants) {
+        unsigned reached = octants;
+        for (unsigned i = octant_steps.size(); i-- > 0;) {
+            const unsigned to = octant_steps[i].from + (1U << octant_steps[i].axis);
+            if (!(reached >> to & 1U)) continue;
+            table[octants] = static_cast<std::uint8_t>(table[octants] | 1U << i);
+            reached |= 1U << octant_steps[i].from;
+        }
+    }
+    return table;
+}
+constexpr std::array<std::uint8_t, 256> paths_table = make_paths_table();
+
+/// The facets of one cell against its octants: bounds first, then the rest of the overlap test for the facets that
+/// need it, then the crossings of those that may have some.
+template <Touch touch>
+class Survey {
   public:
-    explicit StepCrossings(const octree::Cell& cell) : half_(cell.side() / 2) {
-        for (std::size_t i = 0; i < 8; ++i) {
-            const exact::Point low = cell.child(static_cast<int>(i)).low;
-            corner_[i] = {low.x, low.y, low.z};
+    Survey(std::span<const Facet> facets, const octree::Cell& cell, const FacetRange& range,
+           FacetLists& lists)
+        : facets_(facets), cell_(cell), range_(range), list_(lists.list(cell.level, range)), lists_(lists) {
+        if (lists.octants.size() < list_.size()) {
+            lists.octants.resize(list_.size());
+            lists.undecided.resize(list_.size());
+            lists.stepping.resize(list_.size());
+        }
+        const OctantFrame<touch> frame(cell);
+        for (std::uint32_t i = 0; i < list_.size(); ++i) {
+            const Bounds bounds = frame.bounds(facets[list_[i]]);
+            lists.octants[i] = bounds.octants;
+            touched_ |= bounds.is_exact ? bounds.octants : OctantSet{0};
+            lists.undecided[undecided_] = i;
+            undecided_ += !bounds.is_exact;
+            lists.stepping[stepping_] = {list_[i], bounds.steps};
+            stepping_ += bounds.steps != 0;
         }
     }
 
-    void add(const Facet& facet, unsigned steps) {
-        for (; steps != 0; steps &= steps - 1) {
-            const std::size_t i = static_cast<std::size_t>(std::countr_zero(steps));
-            const OctantStep step = octant_steps[i];
-            change_[i] += crossing(facet, corner_[step.from], step.axis, half_);
+    /// Decides for every facet which octants it touches.
+    void decide_all() {
+        for (std::size_t i = 0; i < undecided_; i += 4) {
+            std::array<const Facet*, 4> four{};
+            const std::size_t count = std::min<std::size_t>(4, undecided_ - i);
+            for (std::size_t k = 0; k < count; ++k) four[k] = &facets_[list_[lists_.undecided[i + k]]];
+            const std::array<OctantSet, 4> touched = touched_octants(four, cell_, touch);
+            for (std::size_t k = 0; k < count; ++k) {
+                OctantSet& octants = lists_.octants[lists_.undecided[i + k]];
+                octants &= touched[k];
+                touched_ |= octants;
+            }
         }
     }
 
-    std::array<std::int32_t, 8> windings(std::int32_t first) const {
+    /// Decides only which octants are touched: skips facets that can add none.
+    void decide_touched() {
+        for (std::size_t i = 0; i < undecided_;) {
+            std::array<const Facet*, 4> four{};
+            std::array<OctantSet, 4> octants{};
+            std::size_t count = 0;
+            for (; i < undecided_ && count < 4; ++i) {
+                const OctantSet candidates = lists_.octants[lists_.undecided[i]];
+                if ((candidates & ~touched_) == 0) continue;
+                octants[count] = candidates;
+                four[count++] = &facets_[list_[lists_.undecided[i]]];
+            }
+            if (count == 0) return;
+            const std::array<OctantSet, 4> touched = touched_octants(four, cell_, touch);
+            for (std::size_t k = 0; k < count; ++k) touched_ |= octants[k] & touched[k];
+        }
+    }
+
+    OctantSet touched() const { return touched_; }
+
+    /// The winding numbers at the displaced low corners of the octants in `wanted`; the others mean nothing.
+    std::array<std::int32_t, 8> windings(OctantSet wanted) const {
+        const std::int32_t half = cell_.side() / 2;
+        const unsigned needed = paths_table[wanted];
+        std::array<std::int32_t, 7> change{};
+        for (std::size_t s = 0; s < stepping_; ++s)
+            for (unsigned steps = lists_.stepping[s].steps & needed; steps != 0; steps &= steps - 1) {
+                const std::size_t i = static_cast<std::size_t>(std::countr_zero(steps));
+                const exact::Point from = cell_.child(octant_steps[i].from).low;
+                change[i] += crossing(facets_[lists_.stepping[s].facet], {from.x, from.y, from.z},
+                                      octant_steps[i].axis, half);
+            }
         std::array<std::int32_t, 8> winding{};
-        winding[0] = first;
+        winding[0] = range_.winding;
         for (std::size_t i = 0; i < octant_steps.size(); ++i)
             winding[octant_steps[i].from + (std::size_t{1} << octant_steps[i].axis)] =
-                winding[octant_steps[i].from] + change_[i];
+                winding[octant_steps[i].from] + change[i];
         return winding;
     }
 
   private:
-    std::int32_t half_;
-    std::array<std::array<std::int32_t, 3>, 8> corner_;
-    std::array<std::int32_t, 7> change_{};
+    std::span<const Facet> facets_;
+    const octree::Cell& cell_;
+    const FacetRange& range_;
+    std::span<const std::uint32_t> list_;
+    FacetLists& lists_;
+    std::size_t undecided_ = 0, stepping_ = 0;
+    OctantSet touched_ = 0;
 };
 
 }  // namespace
@@ -55,73 +128,17 @@ FacetRange universe_facets(std::span<const Facet> facets, Touch touch, FacetList
 template <Touch touch>
 OctantFacets find_octants(std::span<const Facet> facets, const octree::Cell& cell, const FacetRange& range,
                           FacetLists& lists) {
-    const std::span<const std::uint32_t> list = lists.list(cell.level, range);
-    if (lists.octants.size() < list.size()) lists.octants.resize(list.size());
-    if (lists.undecided.size() < list.size() + 4) lists.undecided.resize(list.size() + 4);
-    const OctantFrame<touch> frame(cell);
-    StepCrossings crossings(cell);
-    OctantFacets found;
-    std::size_t undecided = 0;
-    for (std::uint32_t i = 0; i < list.size(); ++i) {
-        const Facet& facet = facets[list[i]];
-        const Bounds bounds = frame.bounds(facet);
-        lists.octants[i] = bounds.octants;
-        lists.undecided[undecided] = i;
-        undecided += !bounds.is_exact;
-        found.touched |= bounds.is_exact ? bounds.octants : OctantSet{0};
-        if (bounds.steps) crossings.add(facet, bounds.steps);
-    }
-    for (std::size_t i = 0; i < undecided; i += 4) {
-        std::array<const Facet*, 4> four{};
-        const std::size_t count = std::min<std::size_t>(4, undecided - i);
-        for (std::size_t k = 0; k < count; ++k) four[k] = &facets[list[lists.undecided[i + k]]];
-        const std::array<OctantSet, 4> touched = touched_octants(four, cell, touch);
-        for (std::size_t k = 0; k < count; ++k) {
-            OctantSet& octants = lists.octants[lists.undecided[i + k]];
-            octants &= touched[k];
-            found.touched |= octants;
-        }
-    }
-    found.winding = crossings.windings(range.winding);
-    return found;
+    Survey<touch> survey(facets, cell, range, lists);
+    survey.decide_all();
+    return {survey.touched(), survey.windings(0xFF)};
 }
 
 template <Touch touch>
 OctantFacets find_touched(std::span<const Facet> facets, const octree::Cell& cell, const FacetRange& range,
                           FacetLists& lists) {
-    const std::span<const std::uint32_t> list = lists.list(cell.level, range);
-    if (lists.octants.size() < list.size()) lists.octants.resize(list.size());
-    if (lists.undecided.size() < list.size() + 4) lists.undecided.resize(list.size() + 4);
-    const OctantFrame<touch> frame(cell);
-    StepCrossings crossings(cell);
-    OctantFacets found;
-    std::size_t undecided = 0;
-    for (std::uint32_t i = 0; i < list.size(); ++i) {
-        const Facet& facet = facets[list[i]];
-        const Bounds bounds = frame.bounds(facet);
-        lists.octants[i] = bounds.octants;
-        lists.undecided[undecided] = i;
-        undecided += !bounds.is_exact;
-        found.touched |= bounds.is_exact ? bounds.octants : OctantSet{0};
-        if (bounds.steps) crossings.add(facet, bounds.steps);
-    }
-    // Only facets whose bounds touch an octant that nobody touches yet can add anything.
-    for (std::size_t i = 0; i < undecided;) {
-        std::array<const Facet*, 4> four{};
-        std::array<OctantSet, 4> octants{};
-        std::size_t count = 0;
-        for (; i < undecided && count < 4; ++i) {
-            const OctantSet candidates = lists.octants[lists.undecided[i]];
-            if ((candidates & ~found.touched) == 0) continue;
-            octants[count] = candidates;
-            four[count++] = &facets[list[lists.undecided[i]]];
-        }
-        if (count == 0) break;
-        const std::array<OctantSet, 4> touched = touched_octants(four, cell, touch);
-        for (std::size_t k = 0; k < count; ++k) found.touched |= octants[k] & touched[k];
-    }
-    found.winding = crossings.windings(range.winding);
-    return found;
+    Survey<touch> survey(facets, cell, range, lists);
+    survey.decide_touched();
+    return {survey.touched(), survey.windings(static_cast<OctantSet>(~survey.touched()))};
 }
 
 template OctantFacets find_octants<Touch::interior>(std::span<const Facet>, const octree::Cell&,

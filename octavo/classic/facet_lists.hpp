@@ -53,6 +53,13 @@ struct FacetLists {
     std::vector<OctantSet> octants;  ///< for each facet of the cell at hand, the octants that it touches
     std::vector<std::uint32_t> undecided;  ///< facets of the cell at hand that need more than their bounds
 
+    /// A facet that may cross steps between octants.
+    struct Stepping {
+        std::uint32_t facet;
+        std::uint32_t steps;
+    };
+    std::vector<Stepping> stepping;
+
     std::span<const std::uint32_t> list(int level, const FacetRange& range) const {
         return {levels[static_cast<std::size_t>(level)].data() + range.begin, range.size()};
     }
@@ -73,7 +80,7 @@ template <Touch touch>
 OctantFacets find_octants(std::span<const Facet> facets, const octree::Cell& cell, const FacetRange& range,
                           FacetLists& lists);
 
-/// The same when only which octants are touched is wanted, not by whom; stops early.
+/// The same when only which octants are touched is wanted, not by whom, and the winding numbers of the others.
 template <Touch touch>
 OctantFacets find_touched(std::span<const Facet> facets, const octree::Cell& cell, const FacetRange& range,
                           FacetLists& lists);
