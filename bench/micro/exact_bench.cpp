@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -56,13 +57,14 @@ const Input& input() {
     return instance;
 }
 
-/// Runs `call(i)` for all i of the set, over and over; the report is one call's share.
+/// Runs `call(i)` for all i of the set, over and over; `per_call` is one call's share, in seconds.
 template <class Call>
 void measure(benchmark::State& state, const Call& call) {
     for (auto _ : state)
         for (std::size_t i = 0; i < set_size; ++i) benchmark::DoNotOptimize(call(i));
-    state.counters["ns"] = benchmark::Counter(static_cast<double>(state.iterations() * set_size) * 1e-9,
-                                              benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["per_call"] =
+        benchmark::Counter(static_cast<double>(state.iterations() * set_size),
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 /// The element `steps` after i, cyclically: operands that have nothing to do with element i.

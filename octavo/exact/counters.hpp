@@ -12,7 +12,7 @@
 // Each thread counts in a block of its own, which it alone writes; relaxed loads and stores make reading it
 // from elsewhere legal and cost the same as plain ones. A thread's block enters the list of blocks when the
 // thread first counts and is folded into a total when it ends. Cost: one add to memory a predicate, not
-// measurable in exact_bench. Wrong uses: none, but a snapshot taken while other threads work is only roughly
+// measurable in exact_bench. A snapshot taken while other threads work is only roughly
 // of one moment.
 
 namespace octavo::exact {

@@ -28,8 +28,8 @@ constexpr std::optional<EdgePoint> intersect(Point p, Point q, const Plane& plan
     return intersect_edge(p, q, at_p, at_q);
 }
 
-/// The line of two planes: direction m = n1 x n2 and moment k = d1 n2 - d2 n1. With the first plane
-/// horizontal and facing up, the line runs so that the second plane's positive side is on its left.
+/// The line of two planes: direction m = n1 x n2 and moment k = d1 n2 - d2 n1. On the first
+/// plane, seen from its positive side, the second plane's positive side is to the right of the line.
 class Line {
   public:
     Line(const Plane& first, const Plane& second);

