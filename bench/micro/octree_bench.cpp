@@ -69,7 +69,8 @@ struct Pair {
 const std::vector<Pair>& pairs() {
     static const std::vector<Pair> all = [] {
         std::vector<Pair> found;
-        for (const classic::Facet& facet : *classic::facets_of(the_mesh())) {
+        const std::vector<classic::Facet> facets = *classic::facets_of(the_mesh());
+        for (const classic::Facet& facet : facets) {
             const auto& p = facet.corner[0];
             const octree::Cell cell = octree::Cell::of(octree::CellKey::at({p[0], p[1], p[2]}, 8));
             if (classic::touches(facet, cell, classic::Touch::interior)) found.push_back({facet, cell});

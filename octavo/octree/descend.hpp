@@ -13,8 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include <octavo/base/parallel.hpp>
 #include <octavo/octree/cell.hpp>
 #include <octavo/octree/df_code.hpp>
@@ -264,8 +262,8 @@ class Descent {
         std::vector<Output> outputs;
         outputs.reserve(8);
         for (int i = 0; i < 8; ++i) outputs.push_back(problem_.make_output());
-        tbb::parallel_for(0, 8, [&](int i) {
-            const std::size_t octant = static_cast<std::size_t>(i);
+        run_tasks(8, [&](std::size_t octant) {
+            const int i = static_cast<int>(octant);
             const Restricted<Description>& child = children[octant];
             nodes[octant] = child.node;
             if (is_leaf(child.node)) {
