@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <octavo/exact/orient.hpp>
+#include <octavo/mesh/orient2d.hpp>
+#include <octavo/mesh/self_intersection.hpp>
+#include <octavo/mesh/shells.hpp>
+#include <octavo/mesh/snap.hpp>
+#include <octavo/mesh/topology.hpp>
+#include <octavo/mesh/validate.hpp>
+#include <octavo/mesh/weld.hpp>
+
+namespace octavo::mesh {
+namespace {
+
+/// A count and the facets behind it, which may be named several times and in any order.
+struct Finding {
+    std::uint64_t count = 0;
+    std::vector<FaceIndex> faces;
+};
+
+/// "1 edge has" / "12 edges have".
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string sentence_of(ProblemKind kind, std::uint64_t n) {
+    switch (kind) {
+        case ProblemKind::empty:
+            return "there is no facet with area";
+        case ProblemKind::open_edges:
+            return counted(n, "edge has only one facet", "edges have only one facet");
+        case ProblemKind::inconsistent_orientation:
+            return counted(n, "edge has neighbouring facets that are turned opposite ways",
+                           "edges have neighbouring facets that are turned opposite ways");
+        case ProblemKind::self_intersections:
+            return counted(n, "pair of facets crosses", "pairs of facets cross");
+        case ProblemKind::penetrations:
+            return counted(n, "pair of facets crosses through edges or vertices",
+                           "pairs of facets cross through edges or vertices");
+        case ProblemKind::overlaps:
+            return counted(n, "pair of facets overlaps in a plane", "pairs of facets overlap in a plane");
+        case ProblemKind::inside_out_shells:
+            return counted(n, "closed shell is inside out", "closed shells are inside out");
+        case ProblemKind::non_manifold_edges:
+            return counted(n, "edge has more than two facets", "edges have more than two facets");
+        case ProblemKind::non_manifold_vertices:
+            return counted(n, "vertex joins surfaces that only touch there",
+                           "vertices join surfaces that only touch there");
+        case ProblemKind::duplicate_facets:
+            return counted(n, "facet repeats an earlier one", "facets repeat earlier ones");
+        case ProblemKind::zero_area_facets:
+            return counted(n, "facet has no area", "facets have no area");
+        case ProblemKind::touching_facets:
+            return counted(n, "pair of facets touches without sharing a vertex or edge there",
+                           "pairs of facets touch without sharing a vertex or edge there");
+        case ProblemKind::snapped_facets:
+            return counted(n, "facet is too thin to keep its area on the lattice",
+                           "facets are too thin to keep their area on the lattice");
+        case ProblemKind::unused_vertices:
+            return counted(n, "vertex is used by no facet", "vertices are used by no facet");
+    }
+    return {};
+}
+
+/// Are the three exactly collinear? The doubles are taken as they are.
+bool has_no_area(Vec3 a, Vec3 b, Vec3 c) {
+    return orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == 0 &&
+           orient2d({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) == 0 &&
+           orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
+}
+
+class Validation {
+  public:
+    Validation(const Mesh& mesh, const ValidateOptions& options, const Context& context)
+        : mesh_(mesh), options_(options), context_(context) {}
+
+    Result<Report> run() {
+        report_.facets = mesh_.triangles.size();
+        report_.vertices = mesh_.vertices.size();
+        const Status prepared = prepare();
+        if (!prepared) return prepared.error();
+        context_.report("check", 0);
+        judge_edges();
+        judge_vertices();
+        judge_facets();
+        if (context_.cancelled()) return Context::cancelled_error();
+        judge_shells();
+        context_.report("check", 0.3);
+        if (options_.self_intersections) {
+            const Status searched = judge_pairs();
+            if (!searched) return searched.error();
+        }
+        context_.report("check", 1);
+        conclude();
+        return std::move(report_);
+    }
+
+  private:
+    Status prepare();
+    void judge_edges();
+    void judge_vertices();
+    void judge_facets();
+    void judge_shells();
+    Status judge_pairs();
+    void conclude();
+    void add(ProblemKind kind, Finding finding);
+    void add_pairs(ProblemKind kind, std::span<const FacePair> pairs);
+
+    const Mesh& mesh_;
+    const ValidateOptions& options_;
+    const Context& context_;
+    Report report_;
+    std::vector<Triangle> triangles_;   ///< naming merged vertices
+    std::vector<VertexIndex> kept_;     ///< a stored vertex for each merged one
+    std::vector<exact::Point> points_;  ///< of the merged vertices; equal ones possible
+    EdgeTable edges_;
+};
+
+Status Validation::prepare() {
+    WeldMap map = equal_vertices(mesh_.vertices);
+    report_.merged_vertices = map.kept.size();
+    triangles_ = renamed(mesh_.triangles, map);
+    kept_ = std::move(map.kept);
+
+    // Vertices of no facet have no say, be they ever so far away.
+    const std::vector<bool> used = used_vertices(triangles_, kept_.size());
+    Box3 bounds;
+    for (VertexIndex vertex = 0; vertex < kept_.size(); ++vertex) {
+        if (!used[vertex]) continue;
+        const Vec3 position = mesh_.vertices[kept_[vertex]];
+        if (!is_finite(position))
+            return Error{
+                ErrorCode::bad_input, "vertex " + std::to_string(kept_[vertex]) + " is not finite", {}};
+        bounds.add(position);
+    }
+    points_.resize(kept_.size());
+    if (bounds.empty()) return Done{};
+    const Result<exact::Lattice> lattice = exact::Lattice::fit(bounds);
+    if (!lattice) return lattice.error();
+    for (VertexIndex vertex = 0; vertex < kept_.size(); ++vertex) {
+        if (!used[vertex]) continue;
+        const Vec3 position = mesh_.vertices[kept_[vertex]];
+        points_[vertex] = lattice->snap(position);
+        report_.snap_displacement =
+            std::max(report_.snap_displacement, length(lattice->to_world(points_[vertex]) - position));
+    }
+    return Done{};
+}
+
+void Validation::judge_edges() {
+    edges_ = build_edges(triangles_, kept_.size());
+    Finding open, crowded, misoriented;
+    for (EdgeIndex edge = 0; edge < edges_.size(); ++edge) {
+        const auto sides = edges_.sides_of(edge);
+        int balance = 0;
+        for (const SideIndex side : sides) balance += runs_upward(triangles_, side) ? 1 : -1;
+        if (sides.size() == 2 && balance == 0) continue;
+        const auto note = [&](Finding& finding) {
+            ++finding.count;
+            for (const SideIndex side : sides) finding.faces.push_back(side / 3);
+        };
+        if (sides.size() == 1) note(open);
+        if (sides.size() > 2) note(crowded);
+        if (sides.size() > 1 && balance != 0) note(misoriented);
+    }
+    const auto is_closed = [](const EdgeTable& edges) {
+        for (EdgeIndex edge = 0; edge < edges.size(); ++edge)
+            if (edges.sides_of(edge).size() != 2) return false;
+        return edges.size() > 0;
+    };
+    report_.closed = edges_.size() > 0 && open.count == 0 && crowded.count == 0;
+    report_.oriented = misoriented.count == 0;
+    report_.closed_as_stored = kept_.size() == mesh_.vertices.size()
+                                   ? report_.closed
+                                   : is_closed(build_edges(mesh_.triangles, mesh_.vertices.size()));
+    add(ProblemKind::open_edges, std::move(open));
+    add(ProblemKind::non_manifold_edges, std::move(crowded));
+    add(ProblemKind::inconsistent_orientation, std::move(misoriented));
+}
+
+void Validation::judge_vertices() {
+    report_.merged_components = components_by_vertex(triangles_, kept_.size()).count;
+    report_.components = kept_.size() == mesh_.vertices.size()
+                             ? report_.merged_components
+                             : components_by_vertex(mesh_.triangles, mesh_.vertices.size()).count;
+    const std::vector<SideIndex> fans = fan_of_corner(edges_, triangles_);
+    std::vector<SideIndex> fan_of_vertex(kept_.size(), no_index);
+    std::vector<bool> touched(kept_.size());
+    Finding non_manifold;
+    for (SideIndex corner = 0; corner < fans.size(); ++corner) {
+        if (edges_.edge_of_side[corner] == no_index) continue;
+        const VertexIndex vertex = triangles_[corner / 3][corner % 3];
+        if (fan_of_vertex[vertex] == no_index) fan_of_vertex[vertex] = fans[corner];
+        if (fan_of_vertex[vertex] == fans[corner] || touched[vertex]) continue;
+        touched[vertex] = true;
+        ++non_manifold.count;
+    }
+    for (FaceIndex face = 0; non_manifold.count != 0 && face < triangles_.size(); ++face)
+        for (const VertexIndex vertex : triangles_[face])
+            if (touched[vertex]) non_manifold.faces.push_back(face);
+    report_.manifold = report_.closed && non_manifold.count == 0;
+    add(ProblemKind::non_manifold_vertices, std::move(non_manifold));
+
+    const std::vector<bool> used = used_vertices(mesh_.triangles, mesh_.vertices.size());
+    add(ProblemKind::unused_vertices,
+        {static_cast<std::uint64_t>(std::count(used.begin(), used.end(), false)), {}});
+}
+
+void Validation::judge_facets() {
+    Finding flat, snapped, duplicate;
+    bool area = false;
+    for (FaceIndex face = 0; face < triangles_.size(); ++face) {
+        const auto [i, j, k] = triangles_[face];
+        if (!exact::collinear(points_[i], points_[j], points_[k])) {
+            area = true;
+            // Only rounding could give area to what has none: rare, but then the file decides.
+            if (!has_no_area(mesh_.vertices[kept_[i]], mesh_.vertices[kept_[j]], mesh_.vertices[kept_[k]]))
+                continue;
+            ++flat.count, flat.faces.push_back(face);
+        } else if (has_no_area(mesh_.vertices[kept_[i]], mesh_.vertices[kept_[j]],
+                               mesh_.vertices[kept_[k]])) {
+            ++flat.count, flat.faces.push_back(face);
+        } else {
+            ++snapped.count, snapped.faces.push_back(face);
+        }
+    }
+    // Facets with the same vertices meet at the edge of the two lowest; the third tells them apart.
+    std::vector<std::pair<VertexIndex, FaceIndex>> at_edge;
+    for (EdgeIndex edge = 0; edge < edges_.size(); ++edge) {
+        at_edge.clear();
+        for (const SideIndex side : edges_.sides_of(edge)) {
+            const VertexIndex third = triangles_[side / 3][(side % 3 + 2) % 3];
+            if (third > edges_.ends[edge][1]) at_edge.push_back({third, side / 3});
+        }
+        std::sort(at_edge.begin(), at_edge.end());
+        for (std::size_t i = 1; i < at_edge.size(); ++i)
+            if (at_edge[i].first == at_edge[i - 1].first)
+                ++duplicate.count, duplicate.faces.push_back(at_edge[i].second);
+    }
+    if (!area) add(ProblemKind::empty, {1, {}});
+    add(ProblemKind::zero_area_facets, std::move(flat));
+    add(ProblemKind::snapped_facets, std::move(snapped));
+    add(ProblemKind::duplicate_facets, std::move(duplicate));
+}
+
+void Validation::judge_shells() {
+    const Shells shells = find_shells(points_, triangles_, edges_);
+    report_.shells = static_cast<std::uint32_t>(shells.shells.size());
+    Finding inside_out;
+    for (const Shell& shell : shells.shells) {
+        inside_out.count += shell.inside_out();
+        report_.cavities += shell.cavity();
+    }
+    for (FaceIndex face = 0; inside_out.count != 0 && face < triangles_.size(); ++face)
+        if (shells.of_face[face] != no_index && shells.shells[shells.of_face[face]].inside_out())
+            inside_out.faces.push_back(face);
+    add(ProblemKind::inside_out_shells, std::move(inside_out));
+}
+
+Status Validation::judge_pairs() {
+    // Vertices that only meet on the lattice are one there, or their facets would seem to touch.
+    const WeldMap map = equal_vertices(points_);
+    const bool met = map.kept.size() != points_.size();
+    std::vector<exact::Point> points;
+    for (const VertexIndex vertex : map.kept) points.push_back(points_[vertex]);
+    const Result<SelfIntersections> pairs =
+        met ? find_self_intersections(points, renamed(triangles_, map), context_)
+            : find_self_intersections(points_, triangles_, context_);
+    if (!pairs) return pairs.error();
+    add_pairs(ProblemKind::self_intersections, pairs->crossing);
+    add_pairs(ProblemKind::penetrations, pairs->penetrating);
+    add_pairs(ProblemKind::overlaps, pairs->overlapping);
+    add_pairs(ProblemKind::touching_facets, pairs->touching);
+    return Done{};
+}
+
+void Validation::add_pairs(ProblemKind kind, std::span<const FacePair> pairs) {
+    Finding finding;
+    finding.count = pairs.size();
+    for (const FacePair& pair : pairs) finding.faces.insert(finding.faces.end(), {pair.first, pair.second});
+    add(kind, std::move(finding));
+}
+
+void Validation::add(ProblemKind kind, Finding finding) {
+    if (finding.count == 0) return;
+    std::sort(finding.faces.begin(), finding.faces.end());
+    finding.faces.erase(std::unique(finding.faces.begin(), finding.faces.end()), finding.faces.end());
+    if (finding.faces.size() > options_.most_faces) finding.faces.resize(options_.most_faces);
+    report_.problems.push_back(
+        {kind, finding.count, std::move(finding.faces), sentence_of(kind, finding.count)});
+}
+
+void Validation::conclude() {
+    std::sort(report_.problems.begin(), report_.problems.end(),
+              [](const Problem& a, const Problem& b) { return a.kind < b.kind; });
+    report_.solid = report_.problems.empty() || !is_error(report_.problems.front().kind);
+}
+
+}  // namespace
+
+Result<Report> validate(const Mesh& mesh, const ValidateOptions& options, const Context& context) {
+    return Validation(mesh, options, context).run();
+}
+
+}  // namespace octavo::mesh
