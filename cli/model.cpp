@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <octavo/mesh/measure.hpp>
+
 namespace octavo::cli {
 
 ModelKind kind_of(const std::string& path, const std::string& format) {
@@ -45,6 +47,10 @@ Result<mesh::LatticeMesh> snap(Session& session, const mesh::Mesh& mesh) {
     if (snapped->report.largest_displacement > size * 6e-8)
         session.warn(fmt::format("rounding to the lattice moved {} vertices, by at most {:.3g}",
                                  snapped->report.moved_vertices, snapped->report.largest_displacement));
+    // Inside is where the surface winds about a point at least once: inside out, it winds minus once, or not at all.
+    if (mesh::exact_volume6(snapped->mesh) < 0)
+        session.warn(
+            "the facets point inwards, so hardly anything counts as inside; octavo repair turns them over");
     return std::move(snapped->mesh);
 }
 

@@ -35,6 +35,8 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     app_.get_formatter()->column_width(34);
     app_.get_formatter()->label("SUBCOMMAND", "VERB");
 
+    add_info(*this);
+    add_check(*this);
     add_render(*this);
     add_convert(*this);
     add_shape(*this);

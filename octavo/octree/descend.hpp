@@ -161,10 +161,11 @@ class Progress {
         if (!context_.on_progress) return;
         const std::scoped_lock lock(mutex_);
         done_ = std::fmin(1.0, done_ + share);
-        if (done_ < reported_ + 1.0 / 256) return;
+        if (done_ < reported_ + 1.0 / 2048) return;
         reported_ = done_;
         context_.report(phase_, done_);
     }
+    void start() { context_.report(phase_, 0.0); }
     void finish() { context_.report(phase_, 1.0); }
 
   private:
@@ -191,6 +192,7 @@ class Descent {
     }
 
     Result<Output> run() {
+        progress_.start();
         Output output = problem_.make_output();
         std::unique_ptr<Workspace> workspace = borrow();
         Restricted<Description> root = problem_.root(*workspace);
@@ -208,8 +210,9 @@ class Descent {
     }
 
   private:
-    // A share of all work smaller than this is not reported on its own, nor split further.
-    static constexpr double least_share = 1.0 / 1024;
+    // A share of all work smaller than this is not reported on its own, nor split further. An hour's work still
+    // moves its bar every half second.
+    static constexpr double least_share = 1.0 / 8192;
 
     /// Visits a cell that is split; returns the colour of all of it when its leaves could be merged, else
     /// split.

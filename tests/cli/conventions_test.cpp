@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <set>
+
+#include "cli/program.hpp"
+
+// What holds for every verb: streams, exit codes, --json, and that nothing is lost when something goes wrong.
+
+namespace octavo::tests {
+namespace {
+
+using Conventions = ProgramTest;
+
+TEST_F(Conventions, HelpAndVersionSucceed) {
+    const Ran help = octavo("--help");
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.out.find("Exit codes"), std::string::npos);
+    const Ran version = octavo("--version");
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_EQ(version.out.rfind("octavo ", 0), 0U);
+}
+
+TEST_F(Conventions, AWrongCommandLineIsExitCode2WithAHintAndEmptyStdout) {
+    for (const char* arguments : {"", "frobnicate", "info", "info a.off --no-such-option",
+                                  "octree a.off --depth 22", "octree a.off --depth x", "shape dodo -o a.stl",
+                                  "render a.off -o a.png --size 9", "render a.off -o a.png --cut w"}) {
+        const Ran ran = octavo(arguments);
+        EXPECT_EQ(ran.exit_code, 2) << arguments;
+        EXPECT_EQ(ran.out, "") << arguments;
+        EXPECT_NE(ran.err.find("Try: octavo"), std::string::npos) << arguments;
+    }
+}
+
+TEST_F(Conventions, ABadFileIsExitCode3WithTheFileAndTheLine) {
+    write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 one 0\n3 0 1 2\n");
+    const Ran ran = octavo("info bad.off");
+    EXPECT_EQ(ran.exit_code, 3);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_NE(ran.err.find("bad.off:5"), std::string::npos) << ran.err;
+}
+
+TEST_F(Conventions, AMissingFileIsExitCode3) {
+    const Ran ran = octavo("info nowhere.stl");
+    EXPECT_EQ(ran.exit_code, 3);
+    EXPECT_NE(ran.err.find("nowhere.stl"), std::string::npos);
+}
+
+TEST_F(Conventions, JsonIsOneObjectWithTheCommonKeysAlsoWhenItFails) {
+    const Ran ran = octavo("shape cube -o cube.stl --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const nlohmann::json json = ran.json();
+    for (const char* key : {"octavo", "command", "result", "timings", "warnings"})
+        EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(json["command"], "shape");
+    EXPECT_TRUE(json["warnings"].is_array());
+
+    const Ran failed = octavo("info nowhere.stl --json");
+    EXPECT_EQ(failed.exit_code, 3);
+    const nlohmann::json error = failed.json();
+    ASSERT_TRUE(error.is_object()) << failed.out;
+    EXPECT_EQ(error["error"]["file"], "nowhere.stl");
+    EXPECT_FALSE(error.contains("result"));
+}
+
+TEST_F(Conventions, MeshesGoThroughPipes) {
+    const Ran ran =
+        shell("$octavo shape cube -o cube.off -q && cat cube.off | $octavo convert - - --from off --to obj");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.out.find("octavo"), std::string::npos) << "only the file itself may go to stdout";
+    EXPECT_NE(ran.out.find("\nf "), std::string::npos);
+}
+
+TEST_F(Conventions, AnInputIsNeverOverwritten) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    const std::string before = read("cube.off");
+    EXPECT_EQ(octavo("convert cube.off ./cube.off").exit_code, 3);
+    EXPECT_EQ(read("cube.off"), before);
+}
+
+TEST_F(Conventions, AFailureLeavesNoFileBehind) {
+    write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n");
+    EXPECT_EQ(octavo("convert bad.off out.stl").exit_code, 3);
+    EXPECT_EQ(octavo("octree bad.off -o out.oct").exit_code, 3);
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path("")))
+        names.insert(entry.path().filename());
+    EXPECT_EQ(names, (std::set<std::string>{".err", ".out", "bad.off"}));
+}
+
+TEST_F(Conventions, QuietPrintsNothingOnSuccess) {
+    const Ran ran = octavo("shape cube -o cube.stl --quiet");
+    EXPECT_EQ(ran.exit_code, 0);
+    EXPECT_EQ(ran.out + ran.err, "");
+}
+
+TEST_F(Conventions, ColourFollowsTheEnvironment) {
+    EXPECT_NE(shell("FORCE_COLOR=1 $octavo info nowhere.stl").err.find("\x1b["), std::string::npos);
+    EXPECT_EQ(shell("NO_COLOR=1 FORCE_COLOR=1 $octavo info nowhere.stl").err.find("\x1b["),
+              std::string::npos);
+    EXPECT_EQ(shell("$octavo info nowhere.stl").err.find("\x1b["), std::string::npos)
+        << "stderr is no terminal";
+}
+
+TEST_F(Conventions, AnInterruptEndsLongWorkWithExitCode130) {
+    ASSERT_EQ(octavo("shape rock --detail 200 -o rock.ply").exit_code, 0);
+    // The first line of progress shows that the work has begun.
+    const Ran ran = shell(
+        "$octavo octree rock.ply --depth 13 -o out.oct --threads 1 --progress plain 2>progress & worker=$!;"
+        "for i in $(seq 400); do [ -s progress ] && break; sleep 0.05; done;"
+        "kill -INT $worker; wait $worker; code=$?; cat progress >&2; exit $code");
+    EXPECT_EQ(ran.exit_code, 130);
+    EXPECT_NE(ran.err.find("cancelled"), std::string::npos) << ran.err;
+    EXPECT_FALSE(std::filesystem::exists(path("out.oct")));
+}
+
+TEST_F(Conventions, ManPageAndCompletionKnowEveryVerb) {
+    const std::string man = octavo("man").out, completion = octavo("completion bash").out;
+    std::istringstream help(octavo("--help").out);
+    int verbs = 0;
+    for (std::string line; std::getline(help, line);) {
+        std::string name;
+        if (line.rfind("  ", 0) != 0 || !(std::istringstream(line) >> name) || name[0] == '-') continue;
+        ++verbs;
+        EXPECT_NE(man.find("octavo " + name), std::string::npos) << name;
+        EXPECT_NE(completion.find(name), std::string::npos) << name;
+    }
+    EXPECT_GE(verbs, 8);
+    EXPECT_EQ(shell("$octavo man | man --warnings -l - 2>&1 >/dev/null").out, "");
+    EXPECT_EQ(shell("$octavo completion bash | bash -n").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace octavo::tests

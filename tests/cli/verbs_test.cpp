@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/program.hpp"
+
+// Each verb once, end to end: the keys that scripts rely on, and answers known beforehand.
+
+namespace octavo::tests {
+namespace {
+
+using Verbs = ProgramTest;
+using nlohmann::json;
+
+TEST_F(Verbs, InfoMeasuresACube) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.stl").exit_code, 0);
+    const Ran ran = octavo("info cube.stl --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const json result = ran.json()["result"];
+    EXPECT_EQ(result["vertices"], 8);
+    EXPECT_EQ(result["triangles"], 12);
+    EXPECT_EQ(result["components"], 1);
+    EXPECT_EQ(result["closed"], true);
+    EXPECT_EQ(result["oriented"], true);
+    EXPECT_EQ(result["self_intersections"], 0);
+    EXPECT_EQ(result["volume"], 8.0);
+    EXPECT_EQ(result["area"], 24.0);
+    EXPECT_EQ(result["euler_number"], 2);
+    EXPECT_EQ(result["centroid"], json::array({0.0, 0.0, 0.0}));
+    EXPECT_EQ(result["bounds"], json::array({json::array({-1.0, -1.0, -1.0}), json::array({1.0, 1.0, 1.0})}));
+    EXPECT_NEAR(result["inertia"][0][0].get<double>(), 8.0 * (4 + 4) / 12, 1e-12);
+    EXPECT_NE(octavo("info cube.stl").out.find("volume"), std::string::npos);
+}
+
+constexpr const char* open_cube = R"(OFF
+8 5 0
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+0 0 1
+1 0 1
+1 1 1
+0 1 1
+4 0 3 2 1
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+)";
+
+TEST_F(Verbs, CheckSaysYesByItsExitCode) {
+    ASSERT_EQ(octavo("shape gear -o gear.ply").exit_code, 0);
+    const Ran ran = octavo("check gear.ply --json");
+    EXPECT_EQ(ran.exit_code, 0) << ran.out;
+    EXPECT_EQ(ran.json()["result"]["valid"], true);
+}
+
+TEST_F(Verbs, CheckSaysNoAndWhere) {
+    write("open.off", open_cube);
+    const Ran ran = octavo("check open.off --json");
+    EXPECT_EQ(ran.exit_code, 1);
+    const json result = ran.json()["result"];
+    EXPECT_EQ(result["valid"], false);
+    ASSERT_GE(result["problems"].size(), 1U);
+    EXPECT_EQ(result["problems"][0]["kind"], "open_edges");
+    EXPECT_EQ(result["problems"][0]["count"], 4);
+    EXPECT_EQ(result["problems"][0]["faces"].size(), 4U);
+}
+
+TEST_F(Verbs, OctreeBoundsTheVolumeAndStatsReadsItBack) {
+    ASSERT_EQ(octavo("shape sphere --detail 20 -o ball.ply").exit_code, 0);
+    const json volume = octavo("info ball.ply --json").json()["result"]["volume"];
+    const Ran built = octavo("octree ball.ply --depth 7 -o ball.oct --json");
+    ASSERT_EQ(built.exit_code, 0) << built.err;
+    const json result = built.json()["result"];
+    for (const char* key : {"depth", "leaves", "white", "black", "gray", "volume_lower", "volume_upper",
+                            "bytes", "peak_nodes", "primitive_tests"})
+        EXPECT_TRUE(result.contains(key)) << key;
+    EXPECT_EQ(result["depth"], 7);
+    EXPECT_EQ(result["leaves"],
+              result["white"].get<int>() + result["black"].get<int>() + result["gray"].get<int>());
+    EXPECT_LE(result["volume_lower"], volume);
+    EXPECT_GE(result["volume_upper"], volume);
+    EXPECT_EQ(result["bytes"], std::filesystem::file_size(path("ball.oct")));
+
+    json stats = octavo("stats ball.oct --json").json()["result"];
+    for (const char* key :
+         {"depth", "leaves", "white", "black", "gray", "volume_lower", "volume_upper", "bytes"})
+        EXPECT_EQ(stats[key], result[key]) << key;
+}
+
+TEST_F(Verbs, OctreeIsTheSameForAnyNumberOfThreads) {
+    ASSERT_EQ(octavo("shape knot -o knot.ply").exit_code, 0);
+    ASSERT_EQ(octavo("octree knot.ply --depth 8 -o one.oct --threads 1").exit_code, 0);
+    ASSERT_EQ(octavo("octree knot.ply --depth 8 -o four.oct --threads 4").exit_code, 0);
+    EXPECT_EQ(read("one.oct"), read("four.oct"));
+}
+
+TEST_F(Verbs, OctreeTakesAPrecision) {
+    ASSERT_EQ(octavo("shape cube -o cube.ply").exit_code, 0);
+    const Ran ran = octavo("octree cube.ply --precision 0.01 --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const double size = ran.json()["result"]["cell_size"];
+    EXPECT_LE(size, 0.01);
+    EXPECT_GT(size, 0.005);
+    EXPECT_EQ(octavo("octree cube.ply --precision 1e-30").exit_code, 4);
+    EXPECT_EQ(octavo("octree cube.ply --precision 0.1 --depth 3").exit_code, 2);
+}
+
+TEST_F(Verbs, OctreeRefusesAnOpenSurfaceNamingFacets) {
+    write("open.off", open_cube);
+    const Ran ran = octavo("octree open.off -o open.oct --json");
+    EXPECT_EQ(ran.exit_code, 3);
+    EXPECT_EQ(ran.json()["error"]["code"], "not_a_solid");
+    EXPECT_GE(ran.json()["error"]["faces"].size(), 1U);
+    EXPECT_FALSE(std::filesystem::exists(path("open.oct")));
+    EXPECT_EQ(octavo("octree open.off -o open.oct --open winding").exit_code, 0);
+}
+
+TEST_F(Verbs, ContainsAnswersInOnAndOut) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.stl").exit_code, 0);
+    write("points.csv",
+          "x,y,z\n0,0,0\n1,0,0\n1,1,1\n0.9999999999999999,0,0\n1.0000000000000002,0,0\n5,5,5\n");
+    const Ran ran = octavo("contains cube.stl points.csv -o sides.csv --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.json()["result"], (json{{"inside", 2}, {"on", 2}, {"outside", 2}}));
+    EXPECT_EQ(read("sides.csv"), "side\n-1\n0\n0\n-1\n1\n1\n");
+    EXPECT_EQ(octavo("contains cube.stl points.csv").out, read("sides.csv"));
+}
+
+TEST_F(Verbs, DISABLED_RepairListsWhatItDid) {
+    std::string doubled(open_cube);
+    doubled.replace(doubled.find("8 5 0"), 5, "8 7 0");
+    write("doubled.off", doubled + "4 4 5 6 7\n4 4 5 6 7\n");
+    ASSERT_EQ(octavo("check doubled.off").exit_code, 1);
+    const Ran ran = octavo("repair doubled.off -o fixed.off --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.json()["result"]["valid"], true);
+    EXPECT_EQ(octavo("check fixed.off").exit_code, 0);
+}
+
+TEST_F(Verbs, RenderMakesAPngOfAMeshAndOfAnOctree) {
+    ASSERT_EQ(octavo("shape gear -o gear.ply").exit_code, 0);
+    ASSERT_EQ(octavo("octree gear.ply --depth 5 -o gear.oct").exit_code, 0);
+    for (const char* model : {"gear.ply", "gear.oct"}) {
+        const Ran ran = octavo(std::string("render ") + model + " --cut x -o out.png --size 200x150 --json");
+        ASSERT_EQ(ran.exit_code, 0) << ran.err;
+        EXPECT_GT(ran.json()["result"]["polygons"], 0);
+        EXPECT_EQ(read("out.png").substr(1, 3), "PNG");
+    }
+    EXPECT_EQ(octavo("render gear.ply -o out.bmp").exit_code, 3);
+}
+
+TEST_F(Verbs, ConvertKeepsEveryDouble) {
+    ASSERT_EQ(octavo("shape rock --detail 4 -o a.ply").exit_code, 0);
+    for (const char* command :
+         {"convert a.ply b.obj", "convert b.obj c.off", "convert c.off d.3mf", "convert d.3mf e.ply"})
+        ASSERT_EQ(octavo(command).exit_code, 0) << command;
+    EXPECT_EQ(read("a.ply"), read("e.ply"));
+}
+
+}  // namespace
+}  // namespace octavo::tests
