@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <octavo/base/check.hpp>
+#include <octavo/classic/facet_lanes.hpp>
 #include <octavo/classic/octant_overlap.hpp>
 
 // Vector types are passed in registers only where the machine has them; every such function here is inlined.
@@ -11,8 +12,7 @@ namespace octavo::classic {
 namespace {
 
 __extension__ using Wide = __int128;
-using Lanes = double __attribute__((vector_size(32)));        // one facet a lane
-using Flags = std::int64_t __attribute__((vector_size(32)));  // all ones or zero a lane
+using Flags = LaneFlags;
 
 static_assert(2 * exact::coordinate_bits + 1 <= 53, "edge functions of lattice points are exact doubles");
 
@@ -20,26 +20,11 @@ inline Lanes all(double value) { return Lanes{value, value, value, value}; }
 inline Lanes maximum(Lanes a, Lanes b) { return a > b ? a : b; }
 inline Lanes magnitude(Lanes a) { return maximum(a, -a); }
 
-struct Corners {
-    // position[corner][axis], relative to the cell's low corner
-    std::array<std::array<Lanes, 3>, 3> position;
-};
-
-inline Corners gather(const std::array<const Facet*, 4>& facets, exact::Point low) {
-    Corners corners;
-    for (std::size_t corner = 0; corner < 3; ++corner)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t lane = 0; lane < 4; ++lane)
-                corners.position[corner][axis][lane] =
-                    facets[lane]->corner[corner][axis] - low[static_cast<int>(axis)];
-    return corners;
-}
-
 /// Clears from `open` the quadrants that an edge of the projected triangles separates. `sense` is +1 where the
 /// projection runs counter-clockwise and −1 elsewhere. A triangle that projects to a segment has edges of both
 /// directions, so its line is tested from both sides; an edge that projects to a point separates nothing.
 template <Touch touch>
-inline void cut_quadrants(const Corners& corners, std::size_t first, std::size_t second, Lanes sense,
+inline void cut_quadrants(const FacetLanes& corners, std::size_t first, std::size_t second, Lanes sense,
                           double half, std::array<Flags, 4>& open) {
     for (std::size_t i = 0; i < 3; ++i) {
         const auto& a = corners.position[i];
@@ -95,7 +80,7 @@ struct PlaneOctants {
     Flags undecided;
 };
 
-inline PlaneOctants filter_planes(const Corners& corners, const std::array<Lanes, 3>& n, double half) {
+inline PlaneOctants filter_planes(const FacetLanes& corners, const std::array<Lanes, 3>& n, double half) {
     const auto& a = corners.position[0];
     const std::array<Lanes, 3> size{magnitude(n[0]), magnitude(n[1]), magnitude(n[2])};
     const Lanes value = -(n[0] * a[0] + n[1] * a[1] + n[2] * a[2]);
@@ -124,7 +109,7 @@ inline PlaneOctants filter_planes(const Corners& corners, const std::array<Lanes
 template <Touch touch>
 std::array<OctantSet, 4> touched(const std::array<const Facet*, 4>& facets, const octree::Cell& cell) {
     const double half = cell.side() / 2;
-    const Corners corners = gather(facets, cell.low);
+    const FacetLanes corners = gather(facets, {cell.low.x, cell.low.y, cell.low.z});
     const auto& [a, b, c] = corners.position;
     const std::array<Lanes, 3> u{b[0] - a[0], b[1] - a[1], b[2] - a[2]},
         v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};

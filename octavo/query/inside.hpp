@@ -11,6 +11,7 @@
 #include <octavo/classic/facet.hpp>
 #include <octavo/exact/lattice.hpp>
 #include <octavo/mesh/mesh.hpp>
+#include <octavo/query/leaf_test.hpp>
 
 // Inside, on or outside: exact answers for arbitrary double points about a solid bounded by triangles.
 //
@@ -64,11 +65,14 @@ class InsideQuery {
     const exact::Lattice& lattice() const { return lattice_; }
     std::size_t memory_bytes() const;
 
+    /// A gray cell.
     struct Leaf {
-        std::int32_t winding;      ///< at the low corner, displaced
-        std::uint32_t begin, end;  ///< in `references_`
+        std::int32_t winding;  ///< at the low corner, displaced
         std::array<std::int32_t, 3> low;
+        std::uint32_t begin, end;  ///< in `references_`
+        double extent;             ///< bounds coordinates relative to `low`, of the leaf and its facets
     };
+    static_assert(sizeof(Leaf) == 32);
 
   private:
     friend class InsideAssembly;
@@ -80,9 +84,16 @@ class InsideQuery {
                            brick = 3U << 30;
     static constexpr int brick_levels = 2, brick_cells = 1 << (3 * brick_levels);
 
+    static constexpr Entry kind_of(Entry entry) { return entry & kind_mask; }
+    static constexpr std::size_t index_of(Entry entry) { return entry & ~kind_mask; }
+    /// So many points are under way at once: a core follows 10 to 20 misses, and a block's facets fit its cache.
+    static constexpr std::size_t block_size = 32;
+
     bool place(Vec3 point, Located& located) const;
-    Entry top_entry(std::uint64_t code) const;
-    Side resolve(Entry entry, const Located& located) const;
+    const Entry* top_cell(const Located& located) const;
+    const Entry* brick_cell(Entry entry, const Located& located, int level) const;
+    Side test(const Leaf& leaf, const LatticePlace& place) const;
+    void answer_block(std::span<const Vec3> points, std::span<Side> sides) const;
 
     exact::Lattice lattice_;
     double inverse_unit_ = 1;

@@ -43,10 +43,11 @@ class LeafList {
             const auto begin = static_cast<std::uint32_t>(references.size());
             const std::span<const std::uint32_t> list = workspace.lists.list(cell.level, leaf.description);
             references.insert(references.end(), list.begin(), list.end());
-            leaves.push_back({leaf.description.winding,
-                              begin,
-                              static_cast<std::uint32_t>(references.size()),
-                              {cell.low.x, cell.low.y, cell.low.z}});
+            leaves.push_back({.winding = leaf.description.winding,
+                              .low = {cell.low.x, cell.low.y, cell.low.z},
+                              .begin = begin,
+                              .end = static_cast<std::uint32_t>(references.size()),
+                              .extent = static_cast<double>(cell.side())});
         }
         items.push_back(item);
     }
@@ -168,6 +169,17 @@ class InsideAssembly {
         query_.facets_ = std::move(ordered);
     }
 
+    void measure_extents() {
+        for (InsideQuery::Leaf& leaf : query_.leaves_)
+            for (std::uint32_t r = leaf.begin; r < leaf.end; ++r) {
+                const Facet& facet = query_.facets_[query_.references_[r]];
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    leaf.extent =
+                        std::max({leaf.extent, static_cast<double>(leaf.low[axis] - facet.low[axis]),
+                                  static_cast<double>(facet.high[axis] - leaf.low[axis])});
+            }
+    }
+
   private:
     using Entry = InsideQuery::Entry;
 
@@ -229,6 +241,7 @@ Result<InsideQuery> InsideQuery::build(const mesh::LatticeMesh& mesh, const Insi
     InsideAssembly assembly(query);
     assembly.write(leaves->items);
     assembly.renumber_facets();
+    assembly.measure_extents();
     query.bricks_.shrink_to_fit();
     query.leaves_.shrink_to_fit();
     query.references_.shrink_to_fit();

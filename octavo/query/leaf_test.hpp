@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <octavo/base/vec3.hpp>
 #include <octavo/classic/facet.hpp>
