@@ -18,16 +18,19 @@
 namespace octavo {
 namespace {
 
+Vec3 on_bumpy_sphere(double theta, double phi) {
+    const double radius = 2.4e7 * (1 + 0.1 * std::sin(7 * phi) * std::sin(9 * theta));
+    return {33554432 + radius * std::sin(theta) * std::cos(phi),
+            33554432 + radius * std::sin(theta) * std::sin(phi), 33554432 + radius * std::cos(theta)};
+}
+
 mesh::LatticeMesh bumpy_sphere() {
     constexpr int rings = 256, sectors = 256;
     mesh::LatticeMesh mesh;
     const auto add = [&](double polar, double around) {
-        const double pi = std::acos(-1.0), theta = pi * polar, phi = 2 * pi * around;
-        const double radius = 2.4e7 * (1 + 0.1 * std::sin(7 * phi) * std::sin(9 * theta));
-        const auto round = [](double v) { return static_cast<std::int32_t>(std::lround(33554432 + v)); };
-        mesh.points.push_back({round(radius * std::sin(theta) * std::cos(phi)),
-                               round(radius * std::sin(theta) * std::sin(phi)),
-                               round(radius * std::cos(theta))});
+        const Vec3 p = on_bumpy_sphere(std::acos(-1.0) * polar, 2 * std::acos(-1.0) * around);
+        const auto round = [](double v) { return static_cast<std::int32_t>(std::lround(v)); };
+        mesh.points.push_back({round(p.x), round(p.y), round(p.z)});
     };
     add(0, 0);
     for (int ring = 1; ring < rings; ++ring)
@@ -144,15 +147,17 @@ void locate_in_linear_octree(benchmark::State& state) {
 }
 BENCHMARK(locate_in_linear_octree);
 
-/// Points anywhere in the bounds (0), or within a hundredth of the size of the surface (1).
-std::vector<Vec3> query_points(bool near_surface) {
+enum class Where { anywhere, near_surface };
+
+/// Points anywhere in the bounds, or within a hundredth of the size of the surface.
+std::vector<Vec3> query_points(Where where) {
     std::mt19937_64 random(1);
     std::vector<Vec3> points(1 << 18);
     const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -53); };
     for (Vec3& p : points) {
-        if (near_surface) {
-            const exact::Point v = the_mesh().points[random() % the_mesh().points.size()];
-            p = {v.x + 1e6 * (unit() - 0.5), v.y + 1e6 * (unit() - 0.5), v.z + 1e6 * (unit() - 0.5)};
+        if (where == Where::near_surface) {
+            const Vec3 v = on_bumpy_sphere(std::acos(1 - 2 * unit()), 2 * std::acos(-1.0) * unit());
+            p = v + 1e6 * Vec3{unit() - 0.5, unit() - 0.5, unit() - 0.5};
         } else {
             p = {7e6 + 5.3e7 * unit(), 7e6 + 5.3e7 * unit(), 7e6 + 5.3e7 * unit()};
         }
@@ -162,7 +167,7 @@ std::vector<Vec3> query_points(bool near_surface) {
 
 void inside_batch(benchmark::State& state) {
     const query::InsideQuery query = *query::InsideQuery::build(the_mesh(), {}, one_thread());
-    const std::vector<Vec3> points = query_points(state.range(0) != 0);
+    const std::vector<Vec3> points = query_points(static_cast<Where>(state.range(0)));
     for (auto _ : state) benchmark::DoNotOptimize(query(points, one_thread()));
     state.SetItemsProcessed(static_cast<std::int64_t>(points.size()) * state.iterations());
     state.counters["bytes_a_facet"] =
@@ -172,7 +177,7 @@ BENCHMARK(inside_batch)->Arg(0)->Arg(1);
 
 void inside_single(benchmark::State& state) {
     const query::InsideQuery query = *query::InsideQuery::build(the_mesh(), {}, one_thread());
-    const std::vector<Vec3> points = query_points(state.range(0) != 0);
+    const std::vector<Vec3> points = query_points(static_cast<Where>(state.range(0)));
     std::size_t i = 0;
     for (auto _ : state) benchmark::DoNotOptimize(query(points[i++ % points.size()]));
 }
