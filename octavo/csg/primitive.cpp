@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <octavo/csg/primitive.hpp>
+
+namespace octavo::csg {
+namespace {
+
+constexpr double infinity = Box3::infinity;
+
+Box3 whole_space() { return {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}}; }
+
+bool less_everywhere(Vec3 low, Vec3 high) { return low.x < high.x && low.y < high.y && low.z < high.z; }
+
+/// Bounds of the image of { s : s = centre + part, part in a set with these half extents along image axes }.
+Box3 around(Vec3 centre, Vec3 half) { return {centre - half, centre + half}; }
+
+/// Half extents of the image of the disc of radius `radius` in the plane z = 0 of the local frame.
+Vec3 disc_extent(const Affine& place, double radius) {
+    Vec3 half;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto& row = place.m[static_cast<std::size_t>(axis)];
+        half[axis] = radius * std::hypot(row[0], row[1]);
+    }
+    return half;
+}
+
+struct Bounds {
+    const Affine& place;
+
+    Box3 operator()(const Cuboid& cuboid) const {
+        Box3 box;
+        for (int corner = 0; corner < 8; ++corner)
+            box.add(place({corner & 1 ? cuboid.high.x : cuboid.low.x, corner & 2 ? cuboid.high.y : cuboid.low.y,
+                           corner & 4 ? cuboid.high.z : cuboid.low.z}));
+        return box;
+    }
+    Box3 operator()(const Ball& ball) const {
+        Vec3 half;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto& row = place.m[static_cast<std::size_t>(axis)];
+            half[axis] = ball.radius * std::hypot(row[0], row[1], row[2]);
+        }
+        return around(place({}), half);
+    }
+    Box3 operator()(const Frustum& frustum) const {
+        Box3 box = around(place({0, 0, frustum.low}), disc_extent(place, frustum.bottom));
+        box.add(around(place({0, 0, frustum.high}), disc_extent(place, frustum.top)));
+        return box;
+    }
+    Box3 operator()(const Torus& torus) const {
+        Vec3 half = disc_extent(place, torus.major);
+        half = half + (*this)(Ball{torus.minor}).high - place({});
+        return around(place({}), half);
+    }
+    Box3 operator()(const HalfSpace&) const { return whole_space(); }
+    Box3 operator()(const Everything&) const { return whole_space(); }
+    Box3 operator()(const Polyhedron& polyhedron) const {
+        Box3 box;
+        for (const mesh::Triangle& triangle : polyhedron.mesh->triangles)
+            for (const mesh::VertexIndex vertex : triangle) box.add(place(polyhedron.mesh->vertices[vertex]));
+        return box;
+    }
+};
+
+struct Degenerate {
+    bool operator()(const Cuboid& cuboid) const { return !less_everywhere(cuboid.low, cuboid.high); }
+    bool operator()(const Ball& ball) const { return !(ball.radius > 0); }
+    bool operator()(const Frustum& frustum) const {
+        return !(frustum.low < frustum.high) || !(frustum.bottom >= 0) || !(frustum.top >= 0) ||
+               !(frustum.bottom + frustum.top > 0);
+    }
+    bool operator()(const Torus& torus) const { return !(torus.minor > 0) || !(torus.major >= 0); }
+    bool operator()(const HalfSpace&) const { return false; }
+    bool operator()(const Everything&) const { return false; }
+    bool operator()(const Polyhedron& polyhedron) const {
+        return !polyhedron.mesh || polyhedron.mesh->triangles.size() < 4;
+    }
+};
+
+struct Finite {
+    bool operator()(const Cuboid& cuboid) const {
+        return octavo::is_finite(cuboid.low) && octavo::is_finite(cuboid.high);
+    }
+    bool operator()(const Ball& ball) const { return std::isfinite(ball.radius); }
+    bool operator()(const Frustum& frustum) const {
+        return std::isfinite(frustum.low) && std::isfinite(frustum.high) && std::isfinite(frustum.bottom) &&
+               std::isfinite(frustum.top);
+    }
+    bool operator()(const Torus& torus) const {
+        return std::isfinite(torus.major) && std::isfinite(torus.minor);
+    }
+    bool operator()(const HalfSpace& half_space) const {
+        return octavo::is_finite(half_space.normal) && std::isfinite(half_space.offset) &&
+               half_space.normal != Vec3{};
+    }
+    bool operator()(const Everything&) const { return true; }
+    bool operator()(const Polyhedron& polyhedron) const {
+        return !polyhedron.mesh || std::all_of(polyhedron.mesh->vertices.begin(), polyhedron.mesh->vertices.end(),
+                                               [](Vec3 vertex) { return octavo::is_finite(vertex); });
+    }
+};
+
+}  // namespace
+
+bool is_degenerate(const Primitive& primitive) { return std::visit(Degenerate{}, primitive); }
+
+bool is_finite(const Primitive& primitive) { return std::visit(Finite{}, primitive); }
+
+Box3 bounds(const Primitive& primitive, const Affine& place) {
+    return is_degenerate(primitive) ? Box3{} : std::visit(Bounds{place}, primitive);
+}
+
+bool is_singular(const Affine& map) {
+    // Hadamard's ratio: the volume that the unit cube's image spans, over that of a box with its edges, taken by
+    // rows and by columns, so that scaling an axis before or after does not count. A ratio of 2^-46 or less
+    // leaves less than the rounding of a few products.
+    double rows = 1, columns = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        rows *= std::hypot(map.m[i][0], map.m[i][1], map.m[i][2]);
+        columns *= std::hypot(map.m[0][i], map.m[1][i], map.m[2][i]);
+    }
+    const double least = std::min(rows, columns);
+    return !(std::fabs(map.determinant()) > 0x1p-46 * least);
+}
+
+}  // namespace octavo::csg
