@@ -48,8 +48,9 @@ class DeepestPoint {
     /// False when it ran out of pivots. Afterwards point, depth and weights are those of the optimum.
     bool solve() {
         for (int pivot = 0; pivot < most_pivots; ++pivot) {
-            if (!factor()) return false;
             multiply();
+            // The weights bound the depth from above: once that is negative, they tell why.
+            if (dual_[3] < -1e-6) return true;
             const std::size_t entering = price(pivot > most_pivots / 2);
             if (entering == capacity) return true;
             if (!exchange(entering)) return false;
@@ -63,36 +64,6 @@ class DeepestPoint {
     double weight(std::size_t i) const { return weights_[i]; }
 
   private:
-    double entry(std::size_t row, std::size_t constraint) const {
-        return row < 3 ? constraints_[constraint].normal[row] : 1;
-    }
-
-    /// Inverts the 4×4 matrix of the basis by Gauss and Jordan with pivoting.
-    bool factor() {
-        std::array<std::array<double, 8>, 4> m{};
-        for (std::size_t r = 0; r < 4; ++r) {
-            for (std::size_t c = 0; c < 4; ++c) m[r][c] = entry(r, basis_[c]);
-            m[r][4 + r] = 1;
-        }
-        for (std::size_t c = 0; c < 4; ++c) {
-            std::size_t best = c;
-            for (std::size_t r = c + 1; r < 4; ++r)
-                if (std::fabs(m[r][c]) > std::fabs(m[best][c])) best = r;
-            if (std::fabs(m[best][c]) < 1e-13) return false;
-            std::swap(m[c], m[best]);
-            const double inverse = 1 / m[c][c];
-            for (double& v : m[c]) v *= inverse;
-            for (std::size_t r = 0; r < 4; ++r) {
-                if (r == c || m[r][c] == 0) continue;
-                const double factor = m[r][c];
-                for (std::size_t k = c; k < 8; ++k) m[r][k] -= factor * m[c][k];
-            }
-        }
-        for (std::size_t r = 0; r < 4; ++r)
-            for (std::size_t c = 0; c < 4; ++c) inverse_[r][c] = m[r][4 + c];
-        return true;
-    }
-
     /// The weights of the basis and the multipliers of the four equations.
     void multiply() {
         for (std::size_t i = 0; i < 4; ++i) weights_[i] = std::fmax(0, inverse_[i][3]);
@@ -120,13 +91,14 @@ class DeepestPoint {
     }
 
     bool exchange(std::size_t entering) {
+        std::array<double, 4> step;
         std::size_t leaving = 4;
         double ratio = 0;
         for (std::size_t i = 0; i < 4; ++i) {
-            double step = inverse_[i][3];
-            for (std::size_t r = 0; r < 3; ++r) step += inverse_[i][r] * constraints_[entering].normal[r];
-            if (step <= 1e-12) continue;
-            const double candidate = weights_[i] / step;
+            step[i] = inverse_[i][3];
+            for (std::size_t r = 0; r < 3; ++r) step[i] += inverse_[i][r] * constraints_[entering].normal[r];
+            if (step[i] <= 1e-12) continue;
+            const double candidate = weights_[i] / step[i];
             if (leaving == 4 || candidate < ratio || (candidate == ratio && basis_[i] < basis_[leaving])) {
                 leaving = i;
                 ratio = candidate;
@@ -134,13 +106,25 @@ class DeepestPoint {
         }
         if (leaving == 4) return false;
         basis_[leaving] = entering;
+        const double pivot = 1 / step[leaving];
+        for (double& v : inverse_[leaving]) v *= pivot;
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (i == leaving) continue;
+            for (std::size_t c = 0; c < 4; ++c) inverse_[i][c] -= step[i] * inverse_[leaving][c];
+        }
         return true;
     }
 
+    // The three low faces and the seventh: columns (e₁, 1), (e₂, 1), (e₃, 1) and (−(1, 1, 1)/√3, 1).
+    static constexpr double last_ = 0.36602540378443865;   // 1 / (1 + √3)
+    static constexpr double third_ = 0.21132486540518713;  // 1 / (3 + √3)
     std::array<Constraint, capacity> constraints_;
     std::size_t count_ = 0;
     std::array<std::size_t, 4> basis_{0, 2, 4, 6};
-    std::array<std::array<double, 4>, 4> inverse_{};
+    std::array<std::array<double, 4>, 4> inverse_{{{1 - third_, -third_, -third_, third_},
+                                                   {-third_, 1 - third_, -third_, third_},
+                                                   {-third_, -third_, 1 - third_, third_},
+                                                   {-last_, -last_, -last_, last_}}};
     std::array<double, 4> weights_{}, dual_{};
 };
 
@@ -230,7 +214,8 @@ class Question {
     bool is_apart() const {
         bool only_planes = true;
         for (std::size_t i = 0; i < 4; ++i)
-            if (deepest_.weight(i) > 0 && deepest_.constraint(deepest_.basis()[i]).scale < 0) only_planes = false;
+            if (deepest_.weight(i) > 0 && deepest_.constraint(deepest_.basis()[i]).scale < 0)
+                only_planes = false;
         return only_planes ? planes_exclude() : weights_exclude();
     }
 

@@ -62,7 +62,9 @@ inline Expr intersect(std::vector<Expr> operands) {
     return combine(Operation::intersection, std::move(operands));
 }
 /// The first without all others.
-inline Expr subtract(std::vector<Expr> operands) { return combine(Operation::difference, std::move(operands)); }
+inline Expr subtract(std::vector<Expr> operands) {
+    return combine(Operation::difference, std::move(operands));
+}
 inline Expr symmetric_difference(std::vector<Expr> operands) {
     return combine(Operation::symmetric_difference, std::move(operands));
 }

@@ -56,8 +56,8 @@ SnappedPlane snap_plane(Vec3 normal, Vec3 through) {
         return result;
     }
     const int fraction_bits = slanted == 0 ? 0 : offset_fraction_bits;
-    const auto steps = static_cast<std::int64_t>(
-        std::nearbyint(static_cast<double>(std::ldexp(offset, fraction_bits))));
+    const auto steps =
+        static_cast<std::int64_t>(std::nearbyint(static_cast<double>(std::ldexp(offset, fraction_bits))));
     plane.offset = steps * (std::int64_t{1} << (LatticePlane::normal_bits - fraction_bits));
     result.plane = plane;
     return result;

@@ -29,7 +29,8 @@ struct LatticePlane {
     static constexpr int normal_bits = 34;
     static constexpr int offset_bits = 62;
     static_assert((std::int64_t{3} << (normal_bits + exact::coordinate_bits)) <=
-                      (std::int64_t{1} << 62) - 1 + ((std::int64_t{1} << 62) - (std::int64_t{1} << offset_bits)),
+                      (std::int64_t{1} << 62) - 1 +
+                          ((std::int64_t{1} << 62) - (std::int64_t{1} << offset_bits)),
                   "the sum of three products and an offset fits 64 bits");
 
     /// Positive in the half space, zero on the plane. Coordinates in [0, 2^26].

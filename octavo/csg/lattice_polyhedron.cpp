@@ -51,8 +51,7 @@ bool edges_separate(const std::array<Corner, 3>& v, std::int64_t half) {
 bool plane_separates(const std::array<Corner, 3>& v, std::int64_t half) {
     const Corner n = cross(minus(v[1], v[0]), minus(v[2], v[0]));
     const Wide value = Wide{n[0]} * v[0][0] + Wide{n[1]} * v[0][1] + Wide{n[2]} * v[0][2];
-    const Wide radius =
-        Wide{half} * (Wide{std::abs(n[0])} + Wide{std::abs(n[1])} + Wide{std::abs(n[2])});
+    const Wide radius = Wide{half} * (Wide{std::abs(n[0])} + Wide{std::abs(n[1])} + Wide{std::abs(n[2])});
     return value >= radius || value <= -radius;
 }
 
@@ -118,8 +117,8 @@ std::uint8_t LatticePolyhedron::octants_met(std::uint32_t triangle, const octree
         if (!(met >> octant & 1)) continue;
         std::array<Corner, 3> v = corner;
         for (std::size_t a = 0; a < 3; ++a) {
-            const std::int64_t middle = 2 * std::int64_t{parent.low[static_cast<int>(a)]} +
-                                        (octant >> a & 1 ? 3 : 1) * half;
+            const std::int64_t middle =
+                2 * std::int64_t{parent.low[static_cast<int>(a)]} + (octant >> a & 1 ? 3 : 1) * half;
             for (Corner& p : v) p[a] -= middle;
         }
         if (edges_separate(v, half) || plane_separates(v, half))
@@ -134,8 +133,9 @@ std::int32_t LatticePolyhedron::winding_of_universe() const {
     start[0] = -2 * std::int64_t{reach} - 1;
     std::int32_t winding = 0;
     for (const mesh::Triangle& triangle : triangles)
-        winding += crossing({doubled(points[triangle[0]]), doubled(points[triangle[1]]), doubled(points[triangle[2]])},
-                            start, 0, end);
+        winding += crossing(
+            {doubled(points[triangle[0]]), doubled(points[triangle[1]]), doubled(points[triangle[2]])}, start,
+            0, end);
     return winding;
 }
 
@@ -176,8 +176,8 @@ Result<LatticePolyhedron> snap_polyhedron(const mesh::Mesh& mesh, const Affine& 
             const double local =
                 std::nearbyint(world[axis] / lattice.unit()) - static_cast<double>(lattice.origin()[a]);
             if (!(std::fabs(local) <= LatticePolyhedron::reach))
-                return Error{ErrorCode::limit,
-                             "a polyhedron reaches more than four times as far as the universe", {}};
+                return Error{
+                    ErrorCode::limit, "a polyhedron reaches more than four times as far as the universe", {}};
             point[a] = static_cast<std::int32_t>(local);
         }
         result.points.push_back(point);

@@ -68,8 +68,8 @@ class Normaliser {
         for (;;) {
             if (expr->operation() == Operation::transform) {
                 if (!is_finite(expr->map())) {
-                    error_ = Error{ErrorCode::bad_input, "a transformation matrix has an entry that is not finite",
-                                   {}};
+                    error_ = Error{
+                        ErrorCode::bad_input, "a transformation matrix has an entry that is not finite", {}};
                     return;
                 }
                 place = compose(place, expr->map());
@@ -145,8 +145,11 @@ class Normaliser {
             case NormalKind::symmetric_difference:
                 if (value) toggle();
                 break;
-            case NormalKind::union_of: decide(value); break;
-            default: decide(!value);
+            case NormalKind::union_of:
+                decide(value);
+                break;
+            default:
+                decide(!value);
         }
     }
 
@@ -181,8 +184,7 @@ class Normaliser {
                                form_.leaves.end());
             return add_constant(frame.kind == NormalKind::union_of);
         }
-        if (frame.count == 0)
-            return add_constant(frame.kind == NormalKind::intersection || frame.flipped);
+        if (frame.count == 0) return add_constant(frame.kind == NormalKind::intersection || frame.flipped);
         if (frame.count == 1) return close_single(frame);
         const std::size_t size = form_.tokens.size() - frame.begin + 1;
         form_.tokens.push_back({frame.kind, frame.flipped, static_cast<std::uint32_t>(size), 0});
@@ -222,13 +224,18 @@ class Normaliser {
         while (index > begin) {
             NormalToken& token = form_.tokens[--index];
             switch (token.kind) {
-                case NormalKind::union_of: token.kind = NormalKind::intersection; break;
-                case NormalKind::intersection: token.kind = NormalKind::union_of; break;
+                case NormalKind::union_of:
+                    token.kind = NormalKind::intersection;
+                    break;
+                case NormalKind::intersection:
+                    token.kind = NormalKind::union_of;
+                    break;
                 case NormalKind::symmetric_difference:
                     token.complemented = !token.complemented;
                     index -= token.size - 1;  // its operands stay as they are
                     break;
-                default: token.complemented = !token.complemented;
+                default:
+                    token.complemented = !token.complemented;
             }
         }
     }

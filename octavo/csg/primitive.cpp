@@ -32,8 +32,9 @@ struct Bounds {
     Box3 operator()(const Cuboid& cuboid) const {
         Box3 box;
         for (int corner = 0; corner < 8; ++corner)
-            box.add(place({corner & 1 ? cuboid.high.x : cuboid.low.x, corner & 2 ? cuboid.high.y : cuboid.low.y,
-                           corner & 4 ? cuboid.high.z : cuboid.low.z}));
+            box.add(
+                place({corner & 1 ? cuboid.high.x : cuboid.low.x, corner & 2 ? cuboid.high.y : cuboid.low.y,
+                       corner & 4 ? cuboid.high.z : cuboid.low.z}));
         return box;
     }
     Box3 operator()(const Ball& ball) const {
@@ -97,8 +98,9 @@ struct Finite {
     }
     bool operator()(const Everything&) const { return true; }
     bool operator()(const Polyhedron& polyhedron) const {
-        return !polyhedron.mesh || std::all_of(polyhedron.mesh->vertices.begin(), polyhedron.mesh->vertices.end(),
-                                               [](Vec3 vertex) { return octavo::is_finite(vertex); });
+        return !polyhedron.mesh ||
+               std::all_of(polyhedron.mesh->vertices.begin(), polyhedron.mesh->vertices.end(),
+                           [](Vec3 vertex) { return octavo::is_finite(vertex); });
     }
 };
 

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <octavo/classic/csg_build.hpp>
+#include <octavo/classic/csg_by_primitive.hpp>
+#include <octavo/classic/csg_descent.hpp>
+
+namespace octavo::classic {
+namespace {
+
+using octree::DfCode;
+using octree::Node;
+
+/// The second look of the classic method: a descent that follows an octree's own nodes, prunes the expression on
+/// the way, and resolves the gray cells it arrives at. Decided cells stay as they are.
+class GrayCells {
+  public:
+    struct Description {
+        CsgDescent::Description words;
+        std::size_t node = 0;  // of the cell in the code
+    };
+    using Workspace = CsgDescent::Workspace;
+    using Output = CsgDescent::Output;
+
+    GrayCells(const CsgDescent& descent, const DfCode& code) : descent_(descent), code_(code) {}
+
+    int depth() const { return descent_.depth(); }
+    Workspace make_workspace() const { return descent_.make_workspace(); }
+    Output make_output() const { return {}; }
+    std::size_t weight(const Description& d) const { return descent_.weight(d.words); }
+    Description transfer(const octree::Cell& cell, const Description& d, const Workspace& from,
+                         Workspace& to) const {
+        return {descent_.transfer(cell, d.words, from, to), d.node};
+    }
+    octree::Restricted<Description> root(Workspace& workspace) const {
+        if (is_leaf(code_[0])) return {code_[0], {}};
+        return {Node::split, {descent_.root(workspace).description, 0}};
+    }
+
+    void restrict_to_children(const octree::Cell& parent, const Description& d, Workspace& workspace,
+                              octree::Children<Description>& children) const {
+        octree::Children<CsgDescent::Description> pruned;
+        descent_.restrict_to_children(parent, d.words, workspace, pruned);
+        std::size_t node = d.node + 1;
+        for (std::size_t i = 0; i < 8; ++i) {
+            const Node known = code_[node];
+            const bool open = known == Node::split || known == Node::gray;
+            children[i] = {open ? pruned[i].node : known, {pruned[i].description, node}};
+            // Pruning is three-valued logic as well, so it splits what the code splits.
+            OCTAVO_DCHECK((known == Node::split) == (pruned[i].node == Node::split) || known == Node::gray,
+                          "the two methods differ on a cell above the last level");
+            for (std::size_t pending = 1; pending > 0;)
+                pending += code_[node++] == Node::split ? 7 : std::size_t(-1);
+        }
+    }
+
+  private:
+    const CsgDescent& descent_;
+    const DfCode& code_;
+};
+
+void add(CsgBuildStats& stats, const CsgDescent::Counters& counters) {
+    stats.octants += counters.octants;
+    stats.primitive_tests += counters.tests;
+    stats.resolved += counters.resolved;
+}
+
+Result<DfCode> build_top_down(const csg::Program& program, int depth, CsgBuildStats& stats,
+                              const Context& context) {
+    CsgDescent::Counters counters;
+    const CsgDescent problem(program, program.words, {depth, CsgDescentOptions::LastLevel::resolve},
+                             counters);
+    Result<CsgDescent::Output> built = octree::descend(problem, context, {.phase = "top-down"});
+    if (!built) return built.error();
+    add(stats, counters);
+    stats.peak_nodes = built->peak();
+    DfCode code = built->take_code();
+    stats.peak_bytes = code.memory_bytes() + counters.program_bytes;
+    return code;
+}
+
+Result<DfCode> build_classic(const csg::Program& program, int depth, CsgBuildStats& stats,
+                             const Context& context) {
+    Result<PrimitivewiseOctree> combined = build_by_primitive(program, depth, context);
+    if (!combined) return combined.error();
+    const std::uint64_t primitives = stats.primitives;
+    stats = combined->stats;
+    stats.primitives = primitives;
+    CsgDescent::Counters counters;
+    const CsgDescent descent(program, program.words, {depth, CsgDescentOptions::LastLevel::resolve},
+                             counters);
+    Result<CsgDescent::Output> resolved =
+        octree::descend(GrayCells(descent, combined->code), context, {.phase = "gray cells"});
+    if (!resolved) return resolved.error();
+    stats.resolved = counters.resolved;
+    return resolved->take_code();
+}
+
+/// The level whose cells have at most this side in the world; none when that is below the last.
+std::optional<int> depth_for(double precision, const exact::Lattice& lattice) {
+    for (int depth = 0; depth <= octree::max_level; ++depth)
+        if (lattice.unit() * octree::cell_side(depth) <= precision) return depth;
+    return {};
+}
+
+}  // namespace
+
+Result<CsgOctree> build(const csg::Program& program, const CsgBuildOptions& options, const Context& context) {
+    int depth = options.depth;
+    if (!(options.precision >= 0) || !std::isfinite(options.precision))
+        return Error{ErrorCode::bad_input, "the precision is not a positive number", {}};
+    if (options.precision > 0) {
+        const std::optional<int> needed = depth_for(options.precision, program.lattice);
+        if (!needed)
+            return Error{ErrorCode::limit, "the precision asks for more than 21 levels of octants", {}};
+        depth = *needed;
+    }
+    if (depth < 0 || depth > octree::max_level)
+        return Error{ErrorCode::bad_input,
+                     "the depth of the octree is " + std::to_string(depth) + ", not in 0 to 21",
+                     {}};
+    CsgBuildStats stats;
+    stats.primitives = program.leaves.size();
+    if (program.words.empty()) {
+        DfCode code;
+        code.append(program.constant ? Node::black : Node::white);
+        stats.peak_nodes = 1;
+        return CsgOctree{octree::Octree(program.lattice, depth, std::move(code)), stats};
+    }
+    Result<DfCode> code = options.method == CsgMethod::top_down
+                              ? build_top_down(program, depth, stats, context)
+                              : build_classic(program, depth, stats, context);
+    if (!code) return code.error();
+    return CsgOctree{octree::Octree(program.lattice, depth, std::move(*code)), stats};
+}
+
+Result<CsgOctree> build(const csg::Expr& expression, const CsgBuildOptions& options, const Context& context) {
+    csg::CompileOptions compile_options;
+    compile_options.universe = options.universe;
+    Result<csg::Program> program = csg::compile(expression, compile_options, context);
+    if (!program) return program.error();
+    return build(*program, options, context);
+}
+
+}  // namespace octavo::classic

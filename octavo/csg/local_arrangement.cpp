@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <octavo/csg/classify.hpp>
+#include <octavo/csg/convex_overlap.hpp>
+#include <octavo/csg/flat_patch.hpp>
+#include <octavo/csg/local_arrangement.hpp>
+
+namespace octavo::csg {
+namespace {
+
+using octree::Color;
+
+constexpr std::uint32_t all = ~std::uint32_t{0};
+// The corners of the cell, the middles of its edges and faces, and its own: 3 × 3 × 3 points, x fastest.
+constexpr std::uint32_t points = (std::uint32_t{1} << 27) - 1;
+
+LatticePlane axis_plane(int axis, std::int32_t at) {
+    LatticePlane plane;
+    plane.normal[static_cast<std::size_t>(axis)] = std::int64_t{1} << LatticePlane::normal_bits;
+    plane.offset = -(std::int64_t{at} << LatticePlane::normal_bits);
+    return plane;
+}
+
+}  // namespace
+
+octree::Color LocalArrangement::resolve(const Program& program, std::span<const std::uint32_t> words,
+                                        const octree::Cell& cell) {
+    program_ = &program;
+    cell_ = cell;
+    nodes_.clear();
+    literals_.clear();
+    count_ = 0;
+    if (!read(words)) return Color::gray;
+
+    for (std::size_t s = 0; s < count_; ++s) values_[s] = sample(surfaces_[s]);
+    const Trials sampled = evaluate();
+    if ((sampled.white & points) && (sampled.black & points)) return Color::gray;
+
+    values_ = {};
+    black_ = white_ = false;
+    combinations_ = 0;
+    try_signs(0);
+    if (black_ && !white_) return Color::black;
+    return white_ && !black_ ? Color::white : Color::gray;
+}
+
+// --- Reading the program -------------------------------------------------------------------------------------
+
+bool LocalArrangement::read(std::span<const std::uint32_t> words) {
+    open_.clear();  // `word` is the node, `end` where its words end
+    for (std::size_t at = 0; at < words.size();) {
+        const std::uint32_t w = words[at];
+        if (word::is_leaf(w)) {
+            if (!read_leaf(words, at)) return false;
+            at += word::size(words.data() + at);
+        } else {
+            if (word::operation(w) != word::skip) {
+                open_.push_back({static_cast<std::uint32_t>(nodes_.size()),
+                                 static_cast<std::uint32_t>(at + (w & word::size_mask)),
+                                 {}});
+                nodes_.push_back({Node::Kind::operation, false, w, 0, 0, 0});
+            }
+            ++at;
+        }
+        for (; !open_.empty() && open_.back().end == at; open_.pop_back())
+            nodes_[open_.back().word].end = static_cast<std::uint32_t>(nodes_.size());
+    }
+    return true;
+}
+
+bool LocalArrangement::read_leaf(std::span<const std::uint32_t> words, std::size_t at) {
+    const std::uint32_t w = words[at];
+    const Leaf& leaf = program_->leaves[word::leaf(w)];
+    std::span<const std::uint32_t> items;
+    if (w & word::payload_bit) items = words.subspan(at + 2, words[at + 1]);
+    Node node{Node::Kind::literals,
+              (w & word::complement_bit) != 0,
+              0,
+              0,
+              static_cast<std::uint32_t>(literals_.size()),
+              0};
+    bool fits = true;
+    switch (leaf.kind) {
+        case LeafKind::box:
+            fits = read_box(leaf);
+            break;
+        case LeafKind::convex:
+            if (!(w & word::payload_bit)) items = program_->constraints_of(leaf);
+            for (const std::uint32_t id : items)
+                fits = fits && (ConstraintId::is_cone(id) ? add_cone(ConstraintId::index(id))
+                                                          : add_plane(program_->planes[id], true));
+            break;
+        case LeafKind::torus:
+            fits = add_torus(leaf.first);
+            break;
+        case LeafKind::polyhedron:
+            fits = read_polyhedron(leaf, items, node);
+            break;
+    }
+    node.count = static_cast<std::uint32_t>(literals_.size()) - node.first;
+    nodes_.push_back(node);
+    return fits;
+}
+
+/// The faces of a box that cut through the cell's interior.
+bool LocalArrangement::read_box(const Leaf& leaf) {
+    const exact::Point low = cell_.low, high = cell_.high();
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        for (const bool lower : {true, false}) {
+            const std::int32_t face = lower ? leaf.low[a] : leaf.high[a];
+            if (face <= low[axis] || face >= high[axis]) continue;
+            if (!add_plane(axis_plane(axis, face), lower)) return false;
+        }
+    }
+    return true;
+}
+
+bool LocalArrangement::read_polyhedron(const Leaf& leaf, std::span<const std::uint32_t> items, Node& node) {
+    FlatPatch patch;
+    if (items.size() >= 2)
+        patch =
+            flat_patch(program_->polyhedra[leaf.first], cell_, winding_of_word(items[0]), items.subspan(1));
+    if (patch.kind == FlatPatch::Kind::constant) {
+        node.kind = Node::Kind::constant;
+        node.complemented = patch.inside != node.complemented;
+        return true;
+    }
+    if (patch.kind == FlatPatch::Kind::plane) return add_plane(patch.plane, true);
+    for (std::size_t s = 0; s < count_; ++s)
+        if (surfaces_[s].kind == LocalSurface::Kind::polyhedron && surfaces_[s].index == leaf.first)
+            return add_literal(s, true);
+    return add_surface({LocalSurface::Kind::polyhedron, leaf.first, {}});
+}
+
+// --- Surfaces ------------------------------------------------------------------------------------------------
+
+bool LocalArrangement::add_plane(const LatticePlane& plane, bool value) {
+    for (std::size_t s = 0; s < count_; ++s)
+        if (surfaces_[s].kind == LocalSurface::Kind::plane)
+            if (const int same = same_plane(surfaces_[s].plane, plane); same != 0)
+                return add_literal(s, value == (same > 0));
+    return add_surface({LocalSurface::Kind::plane, 0, value ? plane : plane.flipped()});
+}
+
+bool LocalArrangement::add_cone(std::uint32_t index) {
+    for (std::size_t s = 0; s < count_; ++s)
+        if (surfaces_[s].kind == LocalSurface::Kind::cone &&
+            (surfaces_[s].index == index ||
+             same_cone(program_->cones[surfaces_[s].index], program_->cones[index])))
+            return add_literal(s, true);
+    return add_surface({LocalSurface::Kind::cone, index, {}});
+}
+
+bool LocalArrangement::add_torus(std::uint32_t index) {
+    for (std::size_t s = 0; s < count_; ++s)
+        if (surfaces_[s].kind == LocalSurface::Kind::torus &&
+            program_->tori[surfaces_[s].index] == program_->tori[index])
+            return add_literal(s, true);
+    return add_surface({LocalSurface::Kind::torus, index, {}});
+}
+
+bool LocalArrangement::add_surface(const LocalSurface& surface) {
+    if (count_ == most_surfaces) return false;
+    surfaces_[count_] = surface;
+    return add_literal(count_++, true);
+}
+
+bool LocalArrangement::add_literal(std::size_t surface, bool value) {
+    literals_.push_back({static_cast<std::uint8_t>(surface), value});
+    return true;
+}
+
+// --- Evaluating ----------------------------------------------------------------------------------------------
+
+/// On which side of a surface the 27 points of the cell lie, where that is beyond doubt. A corner strictly on one
+/// side has points of the cell's interior near it on that side as well.
+LocalArrangement::Trials LocalArrangement::sample(const LocalSurface& surface) const {
+    Trials trials;
+    const std::int32_t half = cell_.side() / 2;
+    if (surface.kind == LocalSurface::Kind::plane) {
+        const LatticePlane& plane = surface.plane;
+        std::int64_t z = plane.at(cell_.low.x, cell_.low.y, cell_.low.z);
+        for (std::uint32_t k = 0, bit = 1; k < 3; ++k, z += plane.normal[2] * half) {
+            std::int64_t y = z;
+            for (int j = 0; j < 3; ++j, y += plane.normal[1] * half) {
+                std::int64_t x = y;
+                for (int i = 0; i < 3; ++i, x += plane.normal[0] * half, bit <<= 1) {
+                    if (x > 0) trials.black |= bit;
+                    if (x < 0) trials.white |= bit;
+                }
+            }
+        }
+    } else if (surface.kind == LocalSurface::Kind::cone) {
+        const SecondOrderCone& cone = program_->cones[surface.index];
+        std::array<double, 3> d;
+        double distance = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            d[a] = static_cast<double>(cell_.low[axis]) - cone.origin[a];
+            distance = std::max(distance, std::fabs(d[a]));
+        }
+        const double error = cone.error(distance + 2 * half);
+        std::array<double, 27> excess;
+        for (std::size_t p = 0; p < 27; ++p)
+            excess[p] = cone.excess(d[0] + static_cast<double>(p % 3) * half,
+                                    d[1] + static_cast<double>(p / 3 % 3) * half,
+                                    d[2] + static_cast<double>(p / 9) * half);
+        for (std::size_t p = 0; p < 27; ++p) {
+            trials.black |= static_cast<std::uint32_t>(excess[p] < -error) << p;
+            trials.white |= static_cast<std::uint32_t>(excess[p] > error) << p;
+        }
+    }
+    return trials;
+}
+
+LocalArrangement::Trials LocalArrangement::trials_of(const Node& node) const {
+    if (node.kind == Node::Kind::constant) return node.complemented ? Trials{0, all} : Trials{all, 0};
+    Trials trials{0, all};
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+        const Literal literal = literals_[node.first + i];
+        const Trials value = values_[literal.surface];
+        trials.white |= literal.value ? value.white : value.black;
+        trials.black &= literal.value ? value.black : value.white;
+    }
+    if (node.complemented) std::swap(trials.white, trials.black);
+    return trials;
+}
+
+LocalArrangement::Trials LocalArrangement::evaluate() {
+    open_.clear();
+    Trials result;
+    const auto hand_up = [&](Trials value) {
+        if (open_.empty()) {
+            result = value;
+            return;
+        }
+        Open& around = open_.back();
+        Trials& sum = around.trials;
+        switch (word::operation(around.word)) {
+            case word::union_of:
+                sum = {sum.white & value.white, sum.black | value.black};
+                break;
+            case word::intersection:
+                sum = {sum.white | value.white, sum.black & value.black};
+                break;
+            default: {
+                const std::uint32_t known = (sum.white | sum.black) & (value.white | value.black);
+                const std::uint32_t odd = sum.black ^ value.black;
+                sum = {known & ~odd, known & odd};
+            }
+        }
+    };
+    for (std::uint32_t at = 0; at < nodes_.size(); ++at) {
+        const Node& node = nodes_[at];
+        if (node.kind == Node::Kind::operation) {
+            const bool full =
+                word::operation(node.word) == word::intersection || (node.word & word::even_bit);
+            open_.push_back({node.word, node.end, full ? Trials{0, all} : Trials{all, 0}});
+        } else {
+            hand_up(trials_of(node));
+        }
+        while (!open_.empty() && open_.back().end == at + 1) {
+            const Trials value = open_.back().trials;
+            open_.pop_back();
+            hand_up(value);
+        }
+    }
+    return result;
+}
+
+// --- Trying signs --------------------------------------------------------------------------------------------
+
+/// Colours of the regions in which the first `depth` surfaces have the signs chosen so far.
+void LocalArrangement::try_signs(std::size_t depth) {
+    const Trials value = evaluate();
+    if (value.black || value.white) {
+        (value.black ? black_ : white_) = true;
+        return;
+    }
+    if (depth == count_ || combinations_ >= most_combinations) {
+        black_ = white_ = true;  // not known: stay gray
+        return;
+    }
+    for (const bool inside : {true, false}) {
+        values_[depth] = inside ? Trials{0, all} : Trials{all, 0};
+        if (is_possible(depth + 1)) try_signs(depth + 1);
+        if (black_ && white_) break;
+    }
+    values_[depth] = {};
+}
+
+/// False when no point of the cell's interior has these signs.
+bool LocalArrangement::is_possible(std::size_t depth) {
+    ++combinations_;
+    std::array<LatticePlane, most_surfaces> planes;
+    std::array<const SecondOrderCone*, most_surfaces> cones;
+    std::size_t plane_count = 0, cone_count = 0;
+    for (std::size_t s = 0; s < depth; ++s) {
+        const LocalSurface& surface = surfaces_[s];
+        const bool inside = values_[s].black != 0;
+        if (surface.kind == LocalSurface::Kind::plane)
+            planes[plane_count++] = inside ? surface.plane : surface.plane.flipped();
+        else if (surface.kind == LocalSurface::Kind::cone && inside)
+            cones[cone_count++] = &program_->cones[surface.index];
+    }
+    // One surface alone meets the cell on both sides, or pruning would have removed it.
+    if (plane_count + cone_count < 2) return true;
+    return overlap(cell_, {planes.data(), plane_count}, {cones.data(), cone_count}) != Overlap::apart;
+}
+
+}  // namespace octavo::csg
