@@ -205,7 +205,12 @@ class LeafCompiler {
             const Vec3 a = points[triangle[0]], b = points[triangle[1]], c = points[triangle[2]];
             const Vec3 inward = -turn * cross(b - a, c - a);
             if (inward == Vec3{}) continue;
-            add_plane(inward, to_lattice(a));
+            // The plane is moved out to the farthest vertex: the normal of a sliver may point anywhere near its
+            // true direction, and a plane that leaves all vertices inside cannot cut anything off.
+            const Vec3* lowest = &a;
+            for (const Vec3& point : points)
+                if (dot(inward, point - *lowest) < 0) lowest = &point;
+            add_plane(inward, to_lattice(*lowest));
         }
         merge_planes();
         Vec3 mean;

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <octavo/csg/extrude.hpp>
+#include <octavo/csg/triangulate.hpp>
+
+namespace octavo::csg {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+std::size_t corner_count(const Region& region) {
+    std::size_t count = 0;
+    for (const Contour& contour : region.contours) count += contour.size();
+    return count;
+}
+
+/// Adds the triangles of the region as a cap on the ring of vertices that begins at `first`.
+void add_cap(mesh::Mesh& mesh, const Region& region, std::size_t first, bool facing_up) {
+    for (const std::array<std::uint32_t, 3>& t : triangulate(region.contours)) {
+        const auto vertex = [&](std::size_t i) { return static_cast<mesh::VertexIndex>(first + t[i]); };
+        if (facing_up)
+            mesh.triangles.push_back({vertex(0), vertex(1), vertex(2)});
+        else
+            mesh.triangles.push_back({vertex(0), vertex(2), vertex(1)});
+    }
+}
+
+}  // namespace
+
+double sin_degrees(double degrees) {
+    double x = std::fmod(degrees, 360.0);
+    if (x < 0) x += 360;
+    double sign = 1;
+    if (x >= 180) x -= 180, sign = -1;
+    if (x > 90) x = 180 - x;
+    if (x == 30) return sign * 0.5;
+    if (x == 45) return sign * std::sqrt(0.5);
+    if (x == 60) return sign * std::sqrt(0.75);
+    return sign * (x > 45 ? std::cos((90 - x) * (pi / 180)) : std::sin(x * (pi / 180)));
+}
+
+double cos_degrees(double degrees) { return sin_degrees(90 - std::fabs(std::fmod(degrees, 360.0))); }
+
+mesh::Mesh linear_extrude(const Region& region, const LinearExtrude& options) {
+    mesh::Mesh mesh;
+    if (region.empty() || !(options.height > 0)) return mesh;
+    const int slices = std::max(options.slices, 1);
+    const double bottom = options.centered ? -options.height / 2 : 0;
+    for (int slice = 0; slice <= slices; ++slice) {
+        const double t = static_cast<double>(slice) / slices;
+        const double s = sin_degrees(-options.twist * t), c = cos_degrees(-options.twist * t);
+        const double sx = 1 - (1 - options.scale.x) * t, sy = 1 - (1 - options.scale.y) * t;
+        for (const Contour& contour : region.contours)
+            for (const Vec2& p : contour)
+                mesh.vertices.push_back(
+                    {sx * (c * p.x - s * p.y), sy * (s * p.x + c * p.y), bottom + options.height * t});
+    }
+    const std::size_t ring = corner_count(region);
+    for (int slice = 0; slice < slices; ++slice) {
+        std::size_t first = static_cast<std::size_t>(slice) * ring;
+        // The diagonal that makes the sides of a twisted solid bulge rather than dent.
+        const bool rising = options.twist / slices < 0;
+        for (const Contour& contour : region.contours) {
+            const bool hole = area(Region{{contour}}) < 0;
+            for (std::size_t i = 0; i < contour.size(); ++i) {
+                const auto a = static_cast<mesh::VertexIndex>(first + i);
+                const auto b = static_cast<mesh::VertexIndex>(first + (i + 1) % contour.size());
+                const auto up = static_cast<mesh::VertexIndex>(ring);
+                if (rising == hole) {
+                    mesh.triangles.push_back({a, b, a + up});
+                    mesh.triangles.push_back({a + up, b, b + up});
+                } else {
+                    mesh.triangles.push_back({a, b, b + up});
+                    mesh.triangles.push_back({b + up, a + up, a});
+                }
+            }
+            first += contour.size();
+        }
+    }
+    add_cap(mesh, region, 0, false);
+    add_cap(mesh, region, static_cast<std::size_t>(slices) * ring, true);
+    return mesh;
+}
+
+Result<mesh::Mesh> rotate_extrude(const Region& region, const RotateExtrude& options) {
+    mesh::Mesh mesh;
+    if (region.empty() || options.angle == 0) return mesh;
+    const Box3 box = bounds(region);
+    if (box.low.x < 0 && box.high.x > 0)
+        return Error{ErrorCode::bad_input, "the profile lies on both sides of the axis x = 0", {}};
+    const bool whole = std::fabs(options.angle) >= 360;
+    const int segments = std::max(options.segments, whole ? 3 : 1);
+    const int rings = whole ? segments : segments + 1;
+    // A full turn starts at −x, as OpenSCAD's does; it matters when there are few segments.
+    const double start = whole ? 180 : 0, angle = whole ? 360 : options.angle;
+    for (int ring = 0; ring < rings; ++ring) {
+        const double at = start + angle * ring / segments;
+        const double c = cos_degrees(at), s = sin_degrees(at);
+        for (const Contour& contour : region.contours)
+            for (const Vec2& p : contour) mesh.vertices.push_back({p.x * c, p.x * s, p.y});
+    }
+    const std::size_t count = corner_count(region);
+    // Counter-clockwise sweep of a profile at x >= 0 has its outside to the right of the contour.
+    const bool flipped = (box.low.x < 0) != (angle < 0);
+    for (int segment = 0; segment < segments; ++segment) {
+        std::size_t here = static_cast<std::size_t>(segment) * count;
+        std::size_t there = static_cast<std::size_t>((segment + 1) % rings) * count;
+        for (const Contour& contour : region.contours) {
+            for (std::size_t i = 0; i < contour.size(); ++i) {
+                const std::size_t j = (i + 1) % contour.size();
+                const auto a = static_cast<mesh::VertexIndex>(here + i),
+                           b = static_cast<mesh::VertexIndex>(here + j);
+                const auto c = static_cast<mesh::VertexIndex>(there + i),
+                           d = static_cast<mesh::VertexIndex>(there + j);
+                const auto add = [&](mesh::VertexIndex p, mesh::VertexIndex q, mesh::VertexIndex r) {
+                    if (flipped) std::swap(q, r);
+                    mesh.triangles.push_back({p, q, r});
+                };
+                // Corners on the axis are points: their second triangle would be flat.
+                if (contour[i].x != 0) add(a, c, d);
+                if (contour[j].x != 0) add(a, d, b);
+            }
+            here += contour.size();
+            there += contour.size();
+        }
+    }
+    if (!whole) {
+        add_cap(mesh, region, 0, flipped);
+        add_cap(mesh, region, static_cast<std::size_t>(segments) * count, !flipped);
+    }
+    return mesh;
+}
+
+}  // namespace octavo::csg
