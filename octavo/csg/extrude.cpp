@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <octavo/csg/extrude.hpp>
-#include <octavo/csg/triangulate.hpp>
+#include <octavo/mesh/triangulate.hpp>
 
 namespace octavo::csg {
 namespace {
@@ -16,14 +18,62 @@ std::size_t corner_count(const Region& region) {
     return count;
 }
 
+bool winds_around(const Contour& contour, Vec2 p) {
+    bool inside = false;
+    for (std::size_t i = 0, j = contour.size() - 1; i < contour.size(); j = i++) {
+        const Vec2 a = contour[j], b = contour[i];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
+            inside = !inside;
+    }
+    return inside;
+}
+
+/// Contours by polygon: an outline first, then the holes directly inside it. A hole that finds no outline, because
+/// it touches its own in a corner, becomes a polygon of its own: its triangles count negative and all is covered
+/// once nevertheless.
+std::vector<std::vector<std::size_t>> polygons_of(const Region& region) {
+    std::vector<std::vector<std::size_t>> polygons;
+    std::vector<double> size;
+    for (const Contour& contour : region.contours) size.push_back(area(Region{{contour}}));
+    for (std::size_t c = 0; c < size.size(); ++c)
+        if (size[c] > 0) polygons.push_back({c});
+    const std::size_t outlines = polygons.size();
+    for (std::size_t c = 0; c < size.size(); ++c) {
+        if (size[c] > 0) continue;
+        std::size_t best = outlines;
+        for (std::size_t p = 0; p < outlines; ++p)
+            if (winds_around(region.contours[polygons[p][0]], region.contours[c][0]) &&
+                (best == outlines || size[polygons[p][0]] < size[polygons[best][0]]))
+                best = p;
+        if (best == outlines)
+            polygons.push_back({c});
+        else
+            polygons[best].push_back(c);
+    }
+    return polygons;
+}
+
 /// Adds the triangles of the region as a cap on the ring of vertices that begins at `first`.
 void add_cap(mesh::Mesh& mesh, const Region& region, std::size_t first, bool facing_up) {
-    for (const std::array<std::uint32_t, 3>& t : triangulate(region.contours)) {
-        const auto vertex = [&](std::size_t i) { return static_cast<mesh::VertexIndex>(first + t[i]); };
-        if (facing_up)
-            mesh.triangles.push_back({vertex(0), vertex(1), vertex(2)});
-        else
-            mesh.triangles.push_back({vertex(0), vertex(2), vertex(1)});
+    std::vector<std::size_t> begin{first};
+    std::vector<Vec3> flat(first);  // the region itself, numbered like the ring
+    for (const Contour& contour : region.contours) {
+        begin.push_back(begin.back() + contour.size());
+        for (const Vec2& p : contour) flat.push_back({p.x, p.y, 0});
+    }
+    mesh::Triangulator triangulate;
+    for (const std::vector<std::size_t>& polygon : polygons_of(region)) {
+        std::vector<mesh::VertexIndex> corners;
+        std::vector<std::uint32_t> contour_begin{0};
+        for (const std::size_t c : polygon) {
+            for (std::size_t v = begin[c]; v < begin[c + 1]; ++v)
+                corners.push_back(static_cast<mesh::VertexIndex>(v));
+            contour_begin.push_back(static_cast<std::uint32_t>(corners.size()));
+        }
+        for (mesh::Triangle t : triangulate(flat, corners, contour_begin).triangles) {
+            if (!facing_up) std::swap(t[1], t[2]);
+            mesh.triangles.push_back(t);
+        }
     }
 }
 

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <octavo/io/input.hpp>
+#include <octavo/io/openscad_csg.hpp>
+#include <octavo/io/openscad_csg_geometry.hpp>
+
+namespace octavo::io {
+namespace {
+
+using namespace openscad;
+
+class Evaluator {
+  public:
+    Evaluator(const Syntax& syntax, const std::string& folder, const CsgReadOptions& options,
+              const Context& context)
+        : syntax_(syntax), folder_(folder), options_(options), context_(context) {}
+
+    Result<CsgFile> run() {
+        if (syntax_.nodes.empty()) return syntax_.error_at(0, "the file holds no node", ErrorCode::bad_input);
+        mark();
+        geometry_.resize(syntax_.nodes.size());
+        // Children have greater indices than their parents.
+        for (std::size_t i = syntax_.nodes.size(); i-- > 0;) {
+            if (i % 256 == 0 && context_.cancelled()) return Context::cancelled_error();
+            if (marks_[i] & skipped) continue;
+            Result<Geometry> geometry = evaluate(static_cast<std::uint32_t>(i));
+            if (!geometry) return with_place(geometry.error(), syntax_.nodes[i]);
+            geometry_[i] = std::move(*geometry);
+        }
+        return finish();
+    }
+
+  private:
+    static constexpr std::uint8_t skipped = 1, faceted = 2;
+
+    /// Which nodes are left out and which are below one that needs polyhedra: parents come first. With a '!', only
+    /// that sub-tree is evaluated.
+    void mark() {
+        marks_.assign(syntax_.nodes.size(), 0);
+        const auto alone = std::find_if(syntax_.nodes.begin(), syntax_.nodes.end(),
+                                        [](const Node& node) { return node.alone && !node.disabled; });
+        alone_ = alone == syntax_.nodes.end() ? no_node
+                                              : static_cast<std::uint32_t>(alone - syntax_.nodes.begin());
+        for (std::size_t i = 0; i < syntax_.nodes.size(); ++i) {
+            const Node& node = syntax_.nodes[i];
+            std::uint8_t mark = options_.faceted ? faceted : std::uint8_t{0};
+            if (node.parent != no_node) {
+                mark = marks_[node.parent];
+                if (needs_facets(syntax_.nodes[node.parent].name)) mark |= faceted;
+            } else if (alone_ != no_node) {
+                mark |= skipped;
+            }
+            if (i == alone_) mark = static_cast<std::uint8_t>(mark & ~skipped);
+            if (node.background || node.disabled) mark |= skipped;
+            marks_[i] = mark;
+        }
+    }
+
+    Result<Geometry> evaluate(std::uint32_t index) {
+        const Node& node = syntax_.nodes[index];
+        const Scope scope{syntax_, options_,       context_,
+                          folder_, file_.warnings, (marks_[index] & faceted) != 0};
+        if (std::optional<Result<Geometry>> leaf = make_leaf(node, scope)) {
+            ++file_.primitives;
+            return std::move(*leaf);
+        }
+        return make_inner(node, children_of(node.first_child), scope);
+    }
+
+    std::vector<Geometry> children_of(std::uint32_t first) {
+        std::vector<Geometry> children;
+        for (std::uint32_t child = first; child != no_node; child = syntax_.nodes[child].next_sibling)
+            if (!(marks_[child] & skipped)) children.push_back(std::exchange(geometry_[child], {}));
+        return children;
+    }
+
+    Error with_place(Error error, const Node& node) const {
+        if (error.place.line == 0 && error.code != ErrorCode::cancelled) {
+            Error placed =
+                syntax_.error_at(node.place, std::string(node.name) + "(…): " + error.sentence, error.code);
+            return placed;
+        }
+        return error;
+    }
+
+    Result<CsgFile> finish() {
+        const Scope scope{syntax_, options_, context_, folder_, file_.warnings, true};
+        Node top;
+        top.name = "the file";
+        Geometry geometry;
+        if (alone_ != no_node && !(marks_[alone_] & skipped))
+            geometry = std::move(geometry_[alone_]);
+        else
+            geometry = unite(top, children_of(0), scope);
+        if (geometry.is_flat())
+            return syntax_.error_at(syntax_.nodes.front().place, "the tree is flat: it has no solid part",
+                                    ErrorCode::not_a_solid);
+        if (geometry.is_solid())
+            file_.expression = std::move(geometry.solid);
+        else
+            file_.warnings.push_back("the solid is empty");
+        file_.nodes = syntax_.nodes.size();
+        return std::move(file_);
+    }
+
+    const Syntax& syntax_;
+    const std::string& folder_;
+    const CsgReadOptions& options_;
+    const Context& context_;
+    std::vector<std::uint8_t> marks_;
+    std::vector<Geometry> geometry_;
+    std::uint32_t alone_ = no_node;
+    CsgFile file_;
+};
+
+}  // namespace
+
+Result<CsgFile> read_csg_text(std::string_view text, const std::string& folder, const CsgReadOptions& options,
+                              const Context& context) {
+    Result<Syntax> syntax = parse(text, options, context);
+    if (!syntax) return syntax.error();
+    return Evaluator(*syntax, folder, options, context).run();
+}
+
+Result<CsgFile> read_csg(const std::string& path, const CsgReadOptions& options, const Context& context) {
+    Result<ByteBlock> bytes = read_bytes(path, context);
+    if (!bytes) return bytes.error();
+    const std::string folder =
+        path == "-" ? std::string(".") : std::filesystem::path(path).parent_path().string();
+    Result<CsgFile> file = read_csg_text(text_of(bytes->bytes()), folder, options, context);
+    if (file) return file;
+    Error error = file.error();
+    error.place.file = path;
+    return error;
+}
+
+}  // namespace octavo::io
