@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -183,6 +184,15 @@ class LeafCompiler {
 
     Result<Compiled> put(const Polyhedron& polyhedron, const Affine& place) {
         if (polyhedron.convexity == Convexity::convex) return put_convex(polyhedron, place);
+        // One mesh in one place is one leaf, however often it occurs: its occurrences then meet without a trace.
+        const auto [known, fresh] = meshes_.try_emplace({polyhedron.mesh.get(), place.m});
+        if (!fresh) return known->second;
+        Result<Compiled> compiled = put_mesh(polyhedron, place);
+        if (compiled) known->second = *compiled;
+        return compiled;
+    }
+
+    Result<Compiled> put_mesh(const Polyhedron& polyhedron, const Affine& place) {
         std::optional<Leaf> leaf = leaf_within(LeafKind::polyhedron, bounds(polyhedron, place));
         if (!leaf) return Compiled{};
         Result<LatticePolyhedron> snapped = snap_polyhedron(*polyhedron.mesh, place, program_.lattice);
@@ -288,6 +298,7 @@ class LeafCompiler {
     }
 
     Program& program_;
+    std::map<std::pair<const mesh::Mesh*, std::array<std::array<double, 4>, 3>>, Compiled> meshes_;
     std::size_t first_constraint_ = 0, first_plane_ = 0;
     bool empty_ = false;
 };

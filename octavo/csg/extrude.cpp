@@ -110,7 +110,7 @@ mesh::Mesh linear_extrude(const Region& region, const LinearExtrude& options) {
     const std::size_t ring = corner_count(region);
     for (int slice = 0; slice < slices; ++slice) {
         std::size_t first = static_cast<std::size_t>(slice) * ring;
-        // The diagonal that makes the sides of a twisted solid bulge rather than dent.
+        // The diagonal that makes the outer sides of a twisted solid bulge rather than dent.
         const bool rising = options.twist / slices < 0;
         for (const Contour& contour : region.contours) {
             const bool hole = area(Region{{contour}}) < 0;
@@ -118,7 +118,7 @@ mesh::Mesh linear_extrude(const Region& region, const LinearExtrude& options) {
                 const auto a = static_cast<mesh::VertexIndex>(first + i);
                 const auto b = static_cast<mesh::VertexIndex>(first + (i + 1) % contour.size());
                 const auto up = static_cast<mesh::VertexIndex>(ring);
-                if (rising == hole) {
+                if (rising != hole) {
                     mesh.triangles.push_back({a, b, a + up});
                     mesh.triangles.push_back({a + up, b, b + up});
                 } else {
@@ -132,6 +132,38 @@ mesh::Mesh linear_extrude(const Region& region, const LinearExtrude& options) {
     add_cap(mesh, region, 0, false);
     add_cap(mesh, region, static_cast<std::size_t>(slices) * ring, true);
     return mesh;
+}
+
+int slices_of(const Region& region, const LinearExtrude& options, const Roundness& roundness) {
+    constexpr double most = 100'000;
+    double farthest = 0, longest_move = 0;
+    for (const Contour& contour : region.contours)
+        for (const Vec2& p : contour) {
+            farthest = std::max(farthest, std::hypot(p.x, p.y));
+            longest_move =
+                std::max(longest_move, std::hypot(p.x * (1 - options.scale.x), p.y * (1 - options.scale.y)));
+        }
+    const double fa = std::max(roundness.fa, 0.01), fs = std::max(roundness.fs, 0.01);
+    double slices = 1;
+    const bool uneven = options.scale.x != options.scale.y;
+    if (uneven && longest_move > 0)
+        slices = roundness.fn > 0 ? std::floor(roundness.fn)
+                                  : std::ceil(std::hypot(longest_move, options.height) / fs);
+    if (options.twist != 0) {
+        const double degrees = std::fabs(options.twist), turn = degrees * (pi / 180);
+        double length = std::hypot(turn * farthest, options.height);
+        if (!uneven && options.scale.x != 1) {
+            // A spiral on a cone: a part of Archimedes' spiral, seen from above.
+            const double scale = options.scale.x;
+            const double end = scale > 1 ? turn * scale / (scale - 1) : turn / (1 - scale);
+            const auto spiral = [](double a) { return 0.5 * (a * std::sqrt(1 + a * a) + std::asinh(a)); };
+            length = std::hypot(farthest / end * (spiral(end) - spiral(end - turn)), options.height);
+        }
+        const double by_turn = roundness.fn > 0 ? std::ceil(degrees / 360 * roundness.fn)
+                                                : std::min(std::ceil(degrees / fa), std::ceil(length / fs));
+        slices = std::max({slices, by_turn, std::ceil(degrees / 120)});
+    }
+    return static_cast<int>(std::clamp(slices, 1.0, most));
 }
 
 Result<mesh::Mesh> rotate_extrude(const Region& region, const RotateExtrude& options) {

@@ -3,6 +3,7 @@
 
 #include <octavo/base/result.hpp>
 #include <octavo/csg/region.hpp>
+#include <octavo/csg/tessellate.hpp>
 #include <octavo/mesh/mesh.hpp>
 
 // Solids swept by a flat region, as closed triangle meshes; corner counts and the way quads are split are
@@ -24,6 +25,10 @@ struct LinearExtrude {
 };
 /// Empty when the height or the region is.
 mesh::Mesh linear_extrude(const Region& region, const LinearExtrude& options);
+
+/// The slices that OpenSCAD 2021.01 takes when none are asked for: by the twist, and by the length of the curve that
+/// the farthest corner runs through.
+int slices_of(const Region& region, const LinearExtrude& options, const Roundness& roundness);
 
 struct RotateExtrude {
     double angle = 360;  ///< degrees, counter-clockwise; 360 closes the ring

@@ -2,30 +2,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <octavo/csg/solid_mesh.hpp>
+#include <octavo/mesh/weld.hpp>
 
 namespace octavo::csg {
 namespace {
-
-/// For each vertex, the least index of a vertex at its position.
-std::vector<std::uint32_t> by_position(const std::vector<Vec3>& vertices) {
-    std::vector<std::uint32_t> order(vertices.size()), name(vertices.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    // + 0.0 makes −0 and 0 one position.
-    const auto key = [&](std::uint32_t i) {
-        return std::make_tuple(vertices[i].x + 0.0, vertices[i].y + 0.0, vertices[i].z + 0.0);
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return key(a) < key(b) || (key(a) == key(b) && a < b);
-    });
-    for (std::size_t i = 0; i < order.size(); ++i)
-        name[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? name[order[i - 1]] : order[i];
-    return name;
-}
 
 bool is_convex(const mesh::Mesh& mesh) {
     if (mesh.triangles.size() * mesh.vertices.size() > 4'000'000) return false;
@@ -46,7 +32,7 @@ bool is_convex(const mesh::Mesh& mesh) {
 }  // namespace
 
 bool is_closed(const mesh::Mesh& mesh) {
-    const std::vector<std::uint32_t> name = by_position(mesh.vertices);
+    const std::vector<mesh::VertexIndex> name = mesh::equal_vertices(mesh.vertices).index;
     std::vector<std::tuple<std::uint32_t, std::uint32_t, int>> edges;
     for (const mesh::Triangle& triangle : mesh.triangles)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -62,6 +48,34 @@ bool is_closed(const mesh::Mesh& mesh) {
         if (surplus != 0) return false;
     }
     return true;
+}
+
+mesh::Mesh weld_near(const mesh::Mesh& mesh, double grid) {
+    // Each vertex looks for one before it in its own cell of the grid and the 26 around.
+    std::map<std::array<std::int64_t, 3>, mesh::VertexIndex> first_in;
+    mesh::Mesh welded;
+    std::vector<mesh::VertexIndex> name;
+    for (const Vec3& vertex : mesh.vertices) {
+        std::array<std::int64_t, 3> cell{};
+        for (int axis = 0; axis < 3; ++axis)
+            cell[static_cast<std::size_t>(axis)] =
+                static_cast<std::int64_t>(std::clamp(std::floor(vertex[axis] / grid), -0x1p62, 0x1p62));
+        auto found = first_in.end();
+        for (int around = 0; around < 27 && found == first_in.end(); ++around)
+            found = first_in.find(
+                {cell[0] + around % 3 - 1, cell[1] + around / 3 % 3 - 1, cell[2] + around / 9 - 1});
+        if (found == first_in.end()) {
+            found = first_in.emplace(cell, static_cast<mesh::VertexIndex>(welded.vertices.size())).first;
+            welded.vertices.push_back(vertex);
+        }
+        name.push_back(found->second);
+    }
+    for (const mesh::Triangle& t : mesh.triangles) {
+        const mesh::Triangle renamed{name[t[0]], name[t[1]], name[t[2]]};
+        if (renamed[0] != renamed[1] && renamed[1] != renamed[2] && renamed[2] != renamed[0])
+            welded.triangles.push_back(renamed);
+    }
+    return welded;
 }
 
 double six_volumes(const mesh::Mesh& mesh) {

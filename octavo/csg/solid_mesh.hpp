@@ -12,6 +12,10 @@ namespace octavo::csg {
 /// surface has one winding number.
 bool is_closed(const mesh::Mesh& mesh);
 
+/// The mesh with vertices made one that fall into the same or neighbouring cells of a grid; facets that lose a corner
+/// vanish. What OpenSCAD does with its grid of 2^-20 to polyhedra whose seams have rounding in them.
+mesh::Mesh weld_near(const mesh::Mesh& mesh, double grid);
+
 /// Six times the signed volume of a closed mesh, in doubles.
 double six_volumes(const mesh::Mesh& mesh);
 

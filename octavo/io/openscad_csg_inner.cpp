@@ -258,13 +258,6 @@ Result<Geometry> offset(const Node& node, Children children, const Scope& scope)
     return Geometry::of(csg::offset(geometry.region, distance, options));
 }
 
-double farthest(const csg::Region& region) {
-    double r = 0;
-    for (const csg::Contour& contour : region.contours)
-        for (const csg::Vec2& v : contour) r = std::max(r, std::hypot(v.x, v.y));
-    return r;
-}
-
 Result<Geometry> linear_extrude(const Node& node, Children children, const Scope& scope) {
     Parameters p(scope.syntax, node, {"height"});
     if (p.has("file")) return scope.unsupported(node, "files of flat shapes are not read");
@@ -276,17 +269,15 @@ Result<Geometry> linear_extrude(const Node& node, Children children, const Scope
     options.scale = {std::max(scale[0], 0.0), std::max(scale[1], 0.0)};
     const Geometry geometry = unite(node, std::move(children), scope);
     const csg::Roundness roundness = p.roundness();
-    std::optional<double> slices = p.number("slices");
+    const std::optional<double> slices = p.number("slices");
     if (p.error()) return *p.error();
     if (!geometry.is_flat()) {
         if (geometry.is_solid()) scope.warn(node, "linear_extrude(…) of a solid is left out");
         return Geometry::none();
     }
-    if (!slices && options.twist != 0)
-        slices = std::max(2.0, std::ceil(csg::segments_of(farthest(geometry.region), roundness) *
-                                         std::fabs(options.twist) / 360));
     constexpr double most = 100'000;
-    options.slices = static_cast<int>(std::clamp(slices.value_or(1), 1.0, most));
+    options.slices = slices ? static_cast<int>(std::clamp(*slices, 1.0, most))
+                            : csg::slices_of(geometry.region, options, roundness);
     mesh::Mesh mesh = csg::linear_extrude(geometry.region, options);
     if (mesh.triangles.empty()) return Geometry::none();
     return Geometry::of(csg::Expr(csg::as_polyhedron(std::move(mesh))));

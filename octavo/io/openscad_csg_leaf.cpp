@@ -83,6 +83,11 @@ Result<Geometry> polyhedron(const Node& node, const Scope& scope) {
     mesh::Mesh mesh = mesh::triangulate(polygons).mesh;
     mesh.sources.clear();
     if (mesh.triangles.empty()) return Geometry::none();
+    if (!csg::is_closed(mesh)) {
+        mesh = csg::weld_near(mesh, 0x1p-20);
+        if (!mesh.triangles.empty() && csg::is_closed(mesh))
+            scope.warn(node, "polyhedron(…) closes only after vertices nearer than 2^-20 were made one");
+    }
     if (!csg::is_closed(mesh))
         return scope.options.skip_unsupported
                    ? scope.unsupported(node, "its faces do not close")
