@@ -45,7 +45,7 @@ void set_word(std::string& file, std::size_t at, std::uint16_t value) {
 
 TEST(Zip, ReadsWhatItWrote) {
     std::string large;
-    for (int i = 0; i < 300000; ++i) large += static_cast<char>('a' + i * i % 23);
+    for (int i = 0; i < 300000; ++i) large += static_cast<char>('a' + i % 23 * (i % 7) % 23);
     const std::string file = archive_of({{"empty", ""}, {"Folder/text", "hello"}, {"large", large}});
     const Result<ZipReader> zip = ZipReader::open(bytes_of(file));
     ASSERT_TRUE(zip);
