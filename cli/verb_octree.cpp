@@ -8,9 +8,11 @@
 #include "model.hpp"
 #include "octree_facts.hpp"
 #include "program.hpp"
+#include <octavo/classic/csg_build.hpp>
 #include <octavo/classic/from_mesh.hpp>
 #include <octavo/io/hyper_tree_grid.hpp>
 #include <octavo/io/oct.hpp>
+#include <octavo/io/openscad_csg.hpp>
 #include <octavo/io/vtu.hpp>
 #include <octavo/octree/oct_format.hpp>
 
@@ -21,9 +23,16 @@ namespace octavo::cli {
 namespace {
 
 struct OctreeOptions {
-    std::string input, output, format, open = "reject";
+    std::string input, output, format, open = "reject", method = "top-down";
     int depth = 8;
     double precision = 0;
+    bool faceted = false, skip_unsupported = false;
+};
+
+/// A tree and the figures of how it was built, from whatever it was built.
+struct Grown {
+    octree::Octree octree;
+    std::uint64_t peak_nodes = 0, primitive_tests = 0;
 };
 
 /// The least depth whose cells are no larger than `precision`, in world units.
@@ -37,8 +46,15 @@ Result<int> depth_for(double precision, const exact::Lattice& lattice) {
         {}};
 }
 
-Result<classic::Built> build_from_mesh(Session& session, const Context& context,
-                                       const OctreeOptions& options) {
+void warn_about(Session& session, const classic::BuildReport& report) {
+    if (report.facets_without_area)
+        session.warn(fmt::format("{} facets without area were left out", report.facets_without_area));
+    if (report.closing_facets)
+        session.warn(
+            fmt::format("the surface is open; {} facets were added to close it", report.closing_facets));
+}
+
+Result<Grown> grow_from_mesh(Session& session, const Context& context, const OctreeOptions& options) {
     Result<io::ReadMesh> read = read_mesh(session, context, options.input, options.format);
     if (!read) return std::move(read).error();
     Result<mesh::LatticeMesh> snapped = snap(session, read->mesh);
@@ -54,7 +70,27 @@ Result<classic::Built> build_from_mesh(Session& session, const Context& context,
     Result<classic::Built> built =
         session.timed("build", [&] { return classic::build(*snapped, building, context); });
     if (!built) return in_file(std::move(built).error(), options.input);
-    return built;
+    warn_about(session, built->report);
+    return Grown{std::move(built->octree), built->report.peak_nodes, built->report.primitive_tests};
+}
+
+Result<Grown> grow_from_csg(Session& session, const Context& context, const OctreeOptions& options) {
+    session.inputs.push_back(options.input);
+    const io::CsgReadOptions reading{.faceted = options.faceted,
+                                     .skip_unsupported = options.skip_unsupported};
+    Result<io::CsgFile> file =
+        session.timed("read", [&] { return io::read_csg(options.input, reading, context); });
+    if (!file) return std::move(file).error();
+    session.warn(file->warnings);
+    classic::CsgBuildOptions building;
+    building.depth = options.depth;
+    building.precision = options.precision;
+    building.method =
+        options.method == "classic" ? classic::CsgMethod::classic : classic::CsgMethod::top_down;
+    Result<classic::CsgOctree> built =
+        session.timed("build", [&] { return classic::build(file->expression, building, context); });
+    if (!built) return in_file(std::move(built).error(), options.input);
+    return Grown{std::move(built->octree), built->stats.peak_nodes, built->stats.primitive_tests};
 }
 
 /// Writes the tree in the form that the extension of `path` asks for.
@@ -68,20 +104,13 @@ Result<io::WriteReport> write_tree(const octree::Octree& tree, const std::string
         ErrorCode::unsupported, "octrees are written as .oct, .vtu or .htg, and the output is " + path, {}};
 }
 
-void warn_about(Session& session, const classic::BuildReport& report) {
-    if (report.facets_without_area)
-        session.warn(fmt::format("{} facets without area were left out", report.facets_without_area));
-    if (report.closing_facets)
-        session.warn(
-            fmt::format("the surface is open; {} facets were added to close it", report.closing_facets));
-}
-
 Result<ExitCode> make_octree(Session& session, const OctreeOptions& options) {
     const Context context = session.context();
     if (same_file(options.input, options.output)) return would_overwrite(options.output);
-    Result<classic::Built> built = build_from_mesh(session, context, options);
+    Result<Grown> built = kind_of(options.input, options.format) == ModelKind::csg
+                              ? grow_from_csg(session, context, options)
+                              : grow_from_mesh(session, context, options);
     if (!built) return std::move(built).error();
-    warn_about(session, built->report);
     if (!options.output.empty()) {
         session.stdout_taken = options.output == "-";
         Result<io::WriteReport> written =
@@ -91,8 +120,8 @@ Result<ExitCode> make_octree(Session& session, const OctreeOptions& options) {
     }
     const std::size_t bytes = octree::encode(built->octree).size();
     session.result = json_of(built->octree, bytes);
-    session.result["peak_nodes"] = built->report.peak_nodes;
-    session.result["primitive_tests"] = built->report.primitive_tests;
+    session.result["peak_nodes"] = built->peak_nodes;
+    session.result["primitive_tests"] = built->primitive_tests;
     session.text = text_of(built->octree, bytes);
     return ExitCode::ok;
 }
@@ -103,7 +132,9 @@ void add_octree(Program& program) {
     const auto options = std::make_shared<OctreeOptions>();
     CLI::App* verb = program.verb("octree", "Trees", "Build the exact octree of a solid",
                                   [options](Session& session) { return make_octree(session, *options); });
-    verb->add_option("FILE", options->input, "A closed mesh; - is stdin")->required()->type_name("FILE");
+    verb->add_option("FILE", options->input, "A closed mesh, or an OpenSCAD tree (.csg); - is stdin")
+        ->required()
+        ->type_name("FILE");
     verb->add_option("-o,--output", options->output,
                      "The octree to write: .oct, or .vtu or .htg for ParaView")
         ->type_name("FILE");
@@ -118,6 +149,14 @@ void add_octree(Program& program) {
     verb->add_option("--open", options->open, "An open surface: reject it, or close it and go by winding")
         ->check(CLI::IsMember({"reject", "winding"}))
         ->type_name("POLICY");
+    verb->add_option("--method", options->method,
+                     "For .csg: top-down, or classic (an octree for each primitive)")
+        ->check(CLI::IsMember({"top-down", "classic"}))
+        ->type_name("METHOD");
+    verb->add_flag("--faceted", options->faceted,
+                   "For .csg: round things are the polyhedra that OpenSCAD makes");
+    verb->add_flag("--skip-unsupported", options->skip_unsupported,
+                   "For .csg: leave out text and the like, with warnings");
     verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
         ->type_name("FORMAT");
 }

@@ -105,6 +105,25 @@ TEST_F(Verbs, OctreeTakesAPrecision) {
     EXPECT_EQ(octavo("octree cube.ply --precision 0.1 --depth 3").exit_code, 2);
 }
 
+TEST_F(Verbs, OctreeReadsOpenScadTreesByBothMethods) {
+    write("part.csg",
+          "difference() {\n  cube(size = [4, 4, 4], center = true);\n  sphere(r = 2.5, $fn = 30);\n}\n");
+    const Ran top_down = octavo("octree part.csg --depth 7 -o a.oct --json");
+    ASSERT_EQ(top_down.exit_code, 0) << top_down.err;
+    const json result = top_down.json()["result"];
+    const double volume =
+        64 - 4.0 / 3 * 3.14159265358979 * 15.625 + 6 * 3.14159265358979 * 0.25 / 3 * (7.5 - 0.5);
+    EXPECT_LE(result["volume_lower"], volume);  // the ball is truly round, and cut by the cube's six sides
+    EXPECT_GE(result["volume_upper"], volume);
+    ASSERT_EQ(octavo("octree part.csg --depth 7 -o b.oct --method classic").exit_code, 0);
+    EXPECT_EQ(read("a.oct"), read("b.oct"));
+
+    write("bad.csg", "union() {\n  cube(size = [1, 1, 1);\n}\n");
+    const Ran bad = octavo("octree bad.csg --json");
+    EXPECT_EQ(bad.exit_code, 3);
+    EXPECT_EQ(bad.json()["error"]["line"], 2);
+}
+
 TEST_F(Verbs, OctreeRefusesAnOpenSurfaceNamingFacets) {
     write("open.off", open_cube);
     const Ran ran = octavo("octree open.off -o open.oct --json");
