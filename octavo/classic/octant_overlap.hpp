@@ -33,7 +33,7 @@
 //                     turns this into the closed test, so only "<" and "≤" differ between the rules, by the signs of
 //                     the axis.
 //
-// Cost: about 5 ns a pair for the bounds and 15 ns for the rest (bench/micro/octree_bench.cpp).
+// Cost: about 10 ns a pair for the bounds and 20 ns for the rest (bench/micro/octree_bench.cpp).
 // Source: T. Akenine-Möller, Fast 3D triangle-box overlap testing, 2001; M. Schwarz and H.-P. Seidel, Fast parallel
 // surface and solid voxelization, 2010 (edge functions with per-triangle constants); integers and the octant trick
 // are ours.
