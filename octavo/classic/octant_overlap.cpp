@@ -39,9 +39,9 @@ inline void cut_quadrants(const FacetLanes& corners, std::size_t first, std::siz
         // Separated iff greatest ≤ limit: values are integers, so −½ stands for "< 0".
         Lanes limit;
         if constexpr (touch == Touch::interior)
-            limit = (edge_u == all(0)) & (edge_v == all(0)) ? all(-0.5) : all(0);
+            limit = ((edge_u == all(0)) & (edge_v == all(0))) ? all(-0.5) : all(0);
         else
-            limit = (edge_u > all(0)) | (edge_v > all(0)) ? all(0) : all(-0.5);
+            limit = ((edge_u > all(0)) | (edge_v > all(0))) ? all(0) : all(-0.5);
         open[0] &= e00 > limit;
         open[1] &= e10 > limit;
         open[2] &= e01 > limit;
