@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+
+#include <octavo/base/parallel.hpp>
+#include <octavo/boolean/arrangement.hpp>
+#include <octavo/boolean/subdivision.hpp>
+#include <octavo/exact/orient.hpp>
+#include <octavo/mesh/disjoint_sets.hpp>
+
+namespace octavo::boolean {
+namespace {
+
+using exact::Plane;
+using exact::Point;
+using exact::Sign;
+
+Plane plane_of(const Soup& soup, std::uint32_t facet) {
+    const mesh::Triangle& corner = soup.facets[facet];
+    return Plane::through(soup.points[corner[0]], soup.points[corner[1]], soup.points[corner[2]]);
+}
+
+/// The facets that are subdivided together, with their cuts.
+struct Sheet {
+    std::vector<std::uint32_t> facets;  ///< ascending
+    std::vector<Cut> cuts;
+};
+
+std::vector<Sheet> find_sheets(const Soup& soup, const Contacts& contacts) {
+    mesh::DisjointSets sets(contacts.overlaps.empty() ? 0 : soup.facets.size());
+    for (const Overlap& overlap : contacts.overlaps) sets.unite(overlap.first, overlap.second);
+    const auto root = [&](std::uint32_t facet) { return contacts.overlaps.empty() ? facet : sets.find(facet); };
+
+    std::vector<std::uint32_t> sheet_of(soup.facets.size(), no_index);
+    std::vector<std::uint32_t> touched;
+    const auto touch = [&](std::uint32_t facet) {
+        if (sheet_of[facet] != no_index) return;
+        sheet_of[facet] = 0;
+        touched.push_back(facet);
+    };
+    for (const Cut& cut : contacts.cuts) touch(cut.facet);
+    for (const Overlap& overlap : contacts.overlaps) touch(overlap.first), touch(overlap.second);
+    std::sort(touched.begin(), touched.end());
+
+    // The least facet of a set comes first, so it opens the sheet.
+    std::vector<Sheet> sheets;
+    for (const std::uint32_t facet : touched) {
+        const std::uint32_t first = root(facet);
+        if (first == facet) {
+            sheet_of[facet] = static_cast<std::uint32_t>(sheets.size());
+            sheets.emplace_back();
+        } else {
+            sheet_of[facet] = sheet_of[first];
+        }
+        sheets[sheet_of[facet]].facets.push_back(facet);
+    }
+    for (const Cut& cut : contacts.cuts) sheets[sheet_of[cut.facet]].cuts.push_back(cut);
+    return sheets;
+}
+
+/// A subdivided sheet. Corners and covers are numbered within the sheet until all sheets are done.
+struct Pieces {
+    std::vector<mesh::Triangle> triangles;  ///< point ids, or Subdivision::new_point + index
+    std::vector<exact::TriplePoint> new_points;
+    std::vector<std::uint32_t> cover;       ///< per triangle, which of the covers
+    struct Cover {
+        std::uint32_t facet;                ///< the first that covers
+        std::vector<Delta> deltas;          ///< used when `shared`
+        bool shared;                        ///< by several facets
+    };
+    std::vector<Cover> covers;
+};
+
+inline constexpr std::uint32_t is_cut_line = no_index;  ///< the tag of segments that are no border of a sheet's facet
+
+/// All points that are known go in before any segment, so that a crossing of segments is never one of them.
+void insert_points(const Sheet& sheet, Subdivision& subdivision) {
+    for (const Cut& cut : sheet.cuts) {
+        subdivision.add_point(cut.from);
+        if (cut.to != cut.from) subdivision.add_point(cut.to);
+    }
+}
+
+void insert_segments(const Soup& soup, const Sheet& sheet, Subdivision& subdivision) {
+    for (const Cut& cut : sheet.cuts) {
+        if (cut.to == cut.from) continue;
+        const std::uint32_t line = subdivision.add_line(plane_of(soup, cut.other));
+        subdivision.add_segment(subdivision.add_point(cut.from), subdivision.add_point(cut.to), line, is_cut_line);
+    }
+}
+
+Pieces subdivide_facet(const Soup& soup, const Sheet& sheet, Subdivision& subdivision) {
+    const std::uint32_t facet = sheet.facets[0];
+    const mesh::Triangle& corner = soup.facets[facet];
+    const PointId ids[3] = {corner[0], corner[1], corner[2]};
+    const Point corners[3] = {soup.points[ids[0]], soup.points[ids[1]], soup.points[ids[2]]};
+    subdivision.begin(plane_of(soup, facet), corners, ids);
+    insert_points(sheet, subdivision);
+    insert_segments(soup, sheet, subdivision);
+
+    Pieces pieces;
+    pieces.covers.push_back({facet, {}, false});
+    for (const Subdivision::Triangle& t : subdivision.triangles()) {
+        pieces.triangles.push_back(
+            {subdivision.point_of(t.v[0]), subdivision.point_of(t.v[1]), subdivision.point_of(t.v[2])});
+        pieces.cover.push_back(0);
+    }
+    pieces.new_points.assign(subdivision.new_points().begin(), subdivision.new_points().end());
+    return pieces;
+}
+
+/// Starts with a triangle that holds the whole sheet strictly inside.
+void begin_round(const Soup& soup, const Sheet& sheet, const Plane& plane, Subdivision& subdivision) {
+    const int axis = plane.dominant_axis(), i = (axis + 1) % 3, j = (axis + 2) % 3;
+    std::int32_t low[2] = {exact::universe_side, exact::universe_side}, high[2] = {0, 0};
+    for (const std::uint32_t facet : sheet.facets)
+        for (const std::uint32_t corner : soup.facets[facet]) {
+            const Point point = soup.points[corner];
+            low[0] = std::min(low[0], point[i]), high[0] = std::max(high[0], point[i]);
+            low[1] = std::min(low[1], point[j]), high[1] = std::max(high[1], point[j]);
+        }
+    const std::int32_t reach = (high[0] - low[0]) + (high[1] - low[1]) + 4;  // < 2^27 + 4
+    const auto at = [axis](std::int32_t x, std::int32_t y) {
+        return axis == 0 ? Point{0, x, y} : axis == 1 ? Point{y, 0, x} : Point{x, y, 0};
+    };
+    const Point a = at(low[0] - 1, low[1] - 1), b = at(low[0] - 1 + reach, low[1] - 1),
+                c = at(low[0] - 1, low[1] - 1 + reach);
+    const PointId ids[3] = {no_index, no_index, no_index};
+    const bool up = plane.normal(axis) > 0;
+    const Point corners[3] = {a, up ? b : c, up ? c : b};
+    subdivision.begin(plane, corners, ids);
+}
+
+/// Labels the cells between borders: which facets of the sheet cover them. Crossing a border of a facet enters or
+/// leaves it.
+class CoverSearch {
+  public:
+    CoverSearch(const Soup& soup, const Sheet& sheet, const Plane& plane, const Subdivision& subdivision)
+        : soup_(soup), sheet_(sheet), plane_(plane), subdivision_(subdivision) {}
+
+    /// Fills `covers`, and `cover` per triangle of the subdivision: no_index outside of all facets.
+    void run(std::vector<std::uint32_t>& cover, std::vector<Pieces::Cover>& covers) {
+        const auto triangles = subdivision_.triangles();
+        std::vector<std::uint32_t> cell(triangles.size(), no_index);
+        std::vector<std::vector<std::uint32_t>> inside;  ///< per cell, the facets that cover it, ascending
+        std::vector<std::uint32_t> starts, stack;
+        // The corner of the surrounding triangle lies in no facet.
+        std::uint32_t outer = 0;
+        while (subdivision_.point_of(triangles[outer].v[0]) != no_index && subdivision_.point_of(triangles[outer].v[1]) != no_index &&
+               subdivision_.point_of(triangles[outer].v[2]) != no_index)
+            ++outer;
+        inside.emplace_back();
+        cell[outer] = 0;
+        stack.push_back(outer);
+        while (!stack.empty() || !starts.empty()) {
+            if (stack.empty()) stack.push_back(starts.back()), starts.pop_back();
+            const std::uint32_t at = stack.back();
+            stack.pop_back();
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t next = triangles[at].neighbour[k];
+                if (next == no_index || cell[next] != no_index) continue;
+                std::vector<std::uint32_t> facets = inside[cell[at]];
+                if (!toggle(triangles[at].owner[k], facets)) {
+                    cell[next] = cell[at];
+                    stack.push_back(next);
+                } else {
+                    cell[next] = static_cast<std::uint32_t>(inside.size());
+                    inside.push_back(std::move(facets));
+                    stack.push_back(next);
+                }
+            }
+        }
+        std::map<std::vector<std::uint32_t>, std::uint32_t> known;
+        std::vector<std::uint32_t> cover_of_cell;
+        for (const std::vector<std::uint32_t>& facets : inside) {
+            if (facets.empty()) {
+                cover_of_cell.push_back(no_index);
+                continue;
+            }
+            const auto [place, is_new] = known.try_emplace(facets, static_cast<std::uint32_t>(covers.size()));
+            if (is_new) covers.push_back(cover_by(facets));
+            cover_of_cell.push_back(place->second);
+        }
+        cover.resize(triangles.size());
+        for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle)
+            cover[triangle] = cover_of_cell[cell[triangle]];
+    }
+
+    bool same_way(std::uint32_t facet) const {
+        const int axis = plane_.dominant_axis();
+        return (plane_of(soup_, facet).normal(axis) > 0) == (plane_.normal(axis) > 0);
+    }
+
+  private:
+    bool toggle(std::uint32_t owner, std::vector<std::uint32_t>& facets) const {
+        bool any = false;
+        for (; owner; owner = subdivision_.owner(owner - 1).next) {
+            const std::uint32_t facet = subdivision_.owner(owner - 1).tag;
+            if (facet == is_cut_line) continue;
+            any = true;
+            const auto place = std::lower_bound(facets.begin(), facets.end(), facet);
+            if (place != facets.end() && *place == facet)
+                facets.erase(place);
+            else
+                facets.insert(place, facet);
+        }
+        return any;
+    }
+
+    /// Deltas as seen by the first of the facets.
+    Pieces::Cover cover_by(const std::vector<std::uint32_t>& facets) const {
+        Pieces::Cover cover{facets[0], {}, facets.size() > 1};
+        if (!cover.shared) return cover;
+        TransitionSum sum;
+        const bool first_way = same_way(facets[0]);
+        for (const std::uint32_t facet : facets)
+            sum.add(soup_.transitions.of(soup_.transition[facet]), same_way(facet) == first_way ? 1 : -1);
+        const auto total = sum.normalised();
+        cover.deltas.assign(total.begin(), total.end());
+        return cover;
+    }
+
+    const Soup& soup_;
+    const Sheet& sheet_;
+    const Plane& plane_;
+    const Subdivision& subdivision_;
+};
+
+Pieces subdivide_sheet(const Soup& soup, const Sheet& sheet, Subdivision& subdivision) {
+    const Plane plane = plane_of(soup, sheet.facets[0]);
+    begin_round(soup, sheet, plane, subdivision);
+    for (const std::uint32_t facet : sheet.facets)
+        for (const std::uint32_t corner : soup.facets[facet]) subdivision.add_point(corner);
+    insert_points(sheet, subdivision);
+    const int axis = plane.dominant_axis();
+    for (const std::uint32_t facet : sheet.facets) {
+        const mesh::Triangle& corner = soup.facets[facet];
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t from = corner[k], to = corner[(k + 1) % 3];
+            const std::uint32_t line = subdivision.add_line(Plane::along_axis(axis, soup.points[from], soup.points[to]));
+            subdivision.add_segment(subdivision.add_point(from), subdivision.add_point(to), line, facet);
+        }
+    }
+    insert_segments(soup, sheet, subdivision);
+
+    Pieces pieces;
+    std::vector<std::uint32_t> cover;
+    CoverSearch search(soup, sheet, plane, subdivision);
+    search.run(cover, pieces.covers);
+    const auto triangles = subdivision.triangles();
+    for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
+        if (cover[triangle] == no_index) continue;
+        const Subdivision::Triangle& t = triangles[triangle];
+        mesh::Triangle corners{subdivision.point_of(t.v[0]), subdivision.point_of(t.v[1]), subdivision.point_of(t.v[2])};
+        if (!search.same_way(pieces.covers[cover[triangle]].facet)) std::swap(corners[1], corners[2]);
+        pieces.triangles.push_back(corners);
+        pieces.cover.push_back(cover[triangle]);
+    }
+    pieces.new_points.assign(subdivision.new_points().begin(), subdivision.new_points().end());
+    return pieces;
+}
+
+void append(const Soup& soup, const Pieces& pieces, PointTable& points, Complex& complex) {
+    std::vector<PointId> id_of_new;
+    for (const exact::TriplePoint& point : pieces.new_points) id_of_new.push_back(points.add(point));
+    std::vector<TransitionId> transition;
+    for (const Pieces::Cover& cover : pieces.covers)
+        transition.push_back(cover.shared ? complex.transitions.intern(cover.deltas) : soup.transition[cover.facet]);
+    for (std::size_t i = 0; i < pieces.triangles.size(); ++i) {
+        mesh::Triangle corners = pieces.triangles[i];
+        for (std::uint32_t& corner : corners)
+            if (corner >= Subdivision::new_point) corner = id_of_new[corner - Subdivision::new_point];
+        complex.pieces.push_back(corners);
+        complex.piece_facet.push_back(pieces.covers[pieces.cover[i]].facet);
+        complex.piece_transition.push_back(transition[pieces.cover[i]]);
+    }
+}
+
+}  // namespace
+
+Complex arrange(const Soup& soup, const Contacts& contacts, PointTable& points, const Context& context) {
+    Complex complex;
+    complex.soup = &soup;
+    complex.transitions = soup.transitions;
+    complex.is_cut.assign(soup.facets.size(), 0);
+    const std::vector<Sheet> sheets = find_sheets(soup, contacts);
+    complex.sheets = sheets.size();
+    std::vector<Pieces> pieces(sheets.size());
+    parallel_chunks(context, sheets.size(), 64, [&](std::size_t begin, std::size_t end) {
+        Subdivision subdivision(points);
+        for (std::size_t i = begin; i < end; ++i)
+            pieces[i] = sheets[i].facets.size() == 1 ? subdivide_facet(soup, sheets[i], subdivision)
+                                                     : subdivide_sheet(soup, sheets[i], subdivision);
+    });
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+        for (const std::uint32_t facet : sheets[i].facets) complex.is_cut[facet] = 1;
+        append(soup, pieces[i], points, complex);
+    }
+    return complex;
+}
+
+}  // namespace octavo::boolean

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <octavo/boolean/classify.hpp>
+#include <octavo/exact/orient_in_plane.hpp>
+#include <octavo/exact/plane.hpp>
+#include <octavo/mesh/disjoint_sets.hpp>
+
+namespace octavo::boolean {
+namespace {
+
+using exact::int128;
+using exact::Plane;
+using exact::Point;
+using exact::Sign;
+using exact::wide;
+
+/// v + ε (a - v) + ε² (b - v) for an infinitely small ε: a point inside the facet (v, a, b), next to v.
+struct NearCorner {
+    Point v, a, b;
+};
+
+/// The first of the three that is not zero: value at v, change towards a, change towards b.
+Sign first_sign(int128 at_v, int128 towards_a, int128 towards_b) {
+    return at_v != 0 ? exact::sign_of(at_v) : towards_a != 0 ? exact::sign_of(towards_a) : exact::sign_of(towards_b);
+}
+
+/// Which way p, q and the point turn, seen from the far end of `axis`.
+Sign turn(int axis, Point p, Point q, const NearCorner& near) {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const std::int64_t ux = q[i] - p[i], uy = q[j] - p[j];
+    const auto cross = [&](std::int64_t x, std::int64_t y) { return int128{ux * y - uy * x}; };
+    return first_sign(cross(near.v[i] - p[i], near.v[j] - p[j]),
+                      cross(near.a[i] - near.v[i], near.a[j] - near.v[j]),
+                      cross(near.b[i] - near.v[i], near.b[j] - near.v[j]));
+}
+
+Sign side(const Plane& plane, const NearCorner& near) {
+    const auto towards = [&](Point p) {
+        return wide(plane.a()) * (p.x - near.v.x) + wide(plane.b()) * (p.y - near.v.y) + wide(plane.c()) * (p.z - near.v.z);
+    };
+    return first_sign(plane.value_at(near.v), towards(near.a), towards(near.b));
+}
+
+class Classifier {
+  public:
+    Classifier(const Complex& complex, const PointTable& points, const FacetTree& tree, const Patches& patches,
+               const Program& program)
+        : complex_(complex), points_(points), tree_(tree), patches_(patches), program_(program), indicator_(program) {}
+
+    Result<Classification> run(const Context& context) {
+        if (indicator_.value())
+            return Error{ErrorCode::bad_input, "the result is unbounded: the expression holds outside of all operands", {}};
+        build_regions();
+        std::uint32_t operands = program_.operands();
+        for (TransitionId id = 0; id < complex_.soup->first_triangle.size() - 1; ++id) operands = std::max(operands, id + 1);
+        winding_.assign(operands, 0);
+        fingerprint_of_.assign(regions_, 0);
+        inside_.assign(regions_, unvisited);
+        Classification result;
+        for (std::uint32_t region = 0; region < regions_; ++region) {
+            if (inside_[region] != unvisited) continue;
+            if (context.cancelled()) return Context::cancelled_error();
+            ++result.components;
+            const Status status = visit_component(region);
+            if (!status) return status.error();
+        }
+        for (std::uint32_t patch = 0; patch < patches_.count; ++patch) {
+            const bool front = inside_[region_[2 * patch]] == 1, back = inside_[region_[2 * patch + 1]] == 1;
+            result.of_patch.push_back(front == back ? Role::dropped : back ? Role::kept : Role::reversed);
+        }
+        return result;
+    }
+
+  private:
+    static constexpr char unvisited = 2;
+
+    void build_regions() {
+        mesh::DisjointSets sets(2 * static_cast<std::size_t>(patches_.count));
+        for (const auto& [first, second] : patches_.same_region) sets.unite(first, second);
+        region_.resize(2 * static_cast<std::size_t>(patches_.count));
+        for (PatchSide s = 0; s < region_.size(); ++s) {
+            const std::uint32_t root = sets.find(s);
+            region_[s] = root == s ? regions_++ : region_[root];
+        }
+        // Per region, the sides of patches that look at it.
+        side_begin_.assign(regions_ + 1, 0);
+        for (const std::uint32_t region : region_) ++side_begin_[region + 1];
+        for (std::uint32_t region = 0; region < regions_; ++region) side_begin_[region + 1] += side_begin_[region];
+        sides_.resize(region_.size());
+        std::vector<std::uint32_t> next(side_begin_.begin(), side_begin_.end() - 1);
+        for (PatchSide s = 0; s < region_.size(); ++s) sides_[next[region_[s]]++] = s;
+
+        transition_.resize(patches_.count);
+        seed_.assign(patches_.count, no_index);
+        for (std::uint32_t triangle = 0; triangle < complex_.size(); ++triangle) {
+            const std::uint32_t patch = patches_.of_triangle[triangle];
+            if (patch == no_index) continue;
+            transition_[patch] = complex_.transition(triangle);
+            // Whole facets are numbered before pieces, so a patch that has one starts from it.
+            if (seed_[patch] == no_index && (!complex_.is_piece(triangle) || lies_at_corner(triangle))) seed_[patch] = triangle;
+        }
+    }
+
+    /// Whether one corner of the piece is a corner v of its facet and the next lies on the facet's edge from v.
+    bool lies_at_corner(std::uint32_t triangle) { return corner_of_piece(triangle) >= 0; }
+
+    int corner_of_piece(std::uint32_t triangle) const {
+        const mesh::Triangle& piece = complex_.corners(triangle);
+        const mesh::Triangle& facet = complex_.soup->facets[complex_.facet(triangle)];
+        for (int k = 0; k < 3; ++k)
+            for (int corner = 0; corner < 3; ++corner)
+                if (piece[k] == facet[corner] && is_on_edge(piece[(k + 1) % 3], facet[corner], facet[(corner + 1) % 3]))
+                    return corner;
+        return -1;
+    }
+
+    bool is_on_edge(PointId point, std::uint32_t from, std::uint32_t to) const {
+        if (point == to) return true;
+        return points_.with(point, [&](const auto& p) { return on_line(p, from, to); });
+    }
+    bool on_line(Point p, std::uint32_t from, std::uint32_t to) const {
+        return exact::collinear(points_.vertex(from), points_.vertex(to), p);
+    }
+    template <class P>
+    bool on_line(const P& p, std::uint32_t from, std::uint32_t to) const;
+
+    Status visit_component(std::uint32_t start);
+    Status walk(std::uint32_t start);
+    std::uint32_t find_seed(std::uint32_t start);
+    void add_ray(std::uint32_t seed);
+    void change(std::span<const Delta> deltas, int sign);
+    void enter(std::uint32_t region) {
+        fingerprint_of_[region] = fingerprint_;
+        inside_[region] = indicator_.value() ? 1 : 0;
+    }
+
+    const Complex& complex_;
+    const PointTable& points_;
+    const FacetTree& tree_;
+    const Patches& patches_;
+    const Program& program_;
+
+    std::uint32_t regions_ = 0;
+    std::vector<std::uint32_t> region_;  ///< of each patch side
+    std::vector<std::uint32_t> side_begin_;
+    std::vector<PatchSide> sides_;
+    std::vector<TransitionId> transition_;  ///< of each patch
+    std::vector<std::uint32_t> seed_;       ///< of each patch: a triangle from which a ray may start
+    std::vector<std::uint64_t> fingerprint_of_;
+    std::vector<char> inside_;
+    std::vector<std::uint32_t> stack_;
+    std::vector<char> gathered_;
+    std::vector<std::pair<TransitionId, int>> ray_;  ///< what the component's ray crossed
+
+    Indicator indicator_;
+    std::vector<std::int32_t> winding_;
+    std::uint64_t fingerprint_ = 0;
+};
+
+template <class P>
+bool Classifier::on_line(const P& p, std::uint32_t from, std::uint32_t to) const {
+    // In the plane of the facet already, so one projection that does not squeeze the edge decides; all three do.
+    const Point a = points_.vertex(from), b = points_.vertex(to);
+    for (int axis = 0; axis < 3; ++axis)
+        if (exact::orient2d(axis, a, b, p) != Sign::zero) return false;
+    return true;
+}
+
+/// The multiplier of an operand's winding number in the fingerprint.
+std::uint64_t weight_of(std::uint32_t operand) {
+    std::uint64_t x = (operand + 1) * 0x9E3779B97F4A7C15ull;
+    x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9ull;
+    x = (x ^ x >> 27) * 0x94D049BB133111EBull;
+    return x ^ x >> 31;
+}
+
+void Classifier::change(std::span<const Delta> deltas, int sign) {
+    for (const Delta& delta : deltas) {
+        const std::int32_t before = winding_[delta.operand], after = before + sign * delta.turns;
+        winding_[delta.operand] = after;
+        fingerprint_ += weight_of(delta.operand) * static_cast<std::uint64_t>(static_cast<std::int64_t>(after) - before);
+        if ((before > 0) != (after > 0)) indicator_.set(delta.operand, after > 0);
+    }
+}
+
+/// A triangle of the component of `start` from which a ray may start.
+std::uint32_t Classifier::find_seed(std::uint32_t start) {
+    if (gathered_.empty()) gathered_.assign(regions_, 0);
+    stack_.assign(1, start);
+    gathered_[start] = 1;
+    std::uint32_t best = no_index;
+    while (!stack_.empty()) {
+        const std::uint32_t region = stack_.back();
+        stack_.pop_back();
+        for (std::uint32_t i = side_begin_[region]; i < side_begin_[region + 1]; ++i) {
+            const std::uint32_t patch = sides_[i] / 2, other = region_[sides_[i] ^ 1];
+            best = std::min(best, seed_[patch]);
+            if (gathered_[other]) continue;
+            gathered_[other] = 1;
+            stack_.push_back(other);
+        }
+    }
+    return best;
+}
+
+/// Sets the winding numbers in front of `seed`.
+void Classifier::add_ray(std::uint32_t seed) {
+    const Soup& soup = *complex_.soup;
+    const std::uint32_t own = complex_.facet(seed);
+    const int corner = complex_.is_piece(seed) ? corner_of_piece(seed) : 0;
+    const mesh::Triangle& facet = soup.facets[own];
+    const NearCorner near{soup.points[facet[corner]], soup.points[facet[(corner + 1) % 3]], soup.points[facet[(corner + 2) % 3]]};
+    const Plane own_plane = Plane::through(near.v, near.a, near.b);
+    const int axis = own_plane.dominant_axis(), outward = own_plane.normal(axis) > 0 ? 1 : -1;
+    tree_.for_each_on_ray(near.v, axis, outward, [&](std::uint32_t other) {
+        if (other == own) return;
+        const mesh::Triangle& t = soup.facets[other];
+        const Point p = soup.points[t[0]], q = soup.points[t[1]], r = soup.points[t[2]];
+        const Sign first = turn(axis, p, q, near);
+        if (first == Sign::zero || turn(axis, q, r, near) != first || turn(axis, r, p, near) != first) return;
+        // `first` is also the sign of the plane's normal along the axis: the facet faces the ray's end if that
+        // agrees with the ray's direction. The ray crosses it if the near point is on its nearer side.
+        const int faces_along = static_cast<int>(first) * outward;
+        if (static_cast<int>(side(Plane::through(p, q, r), near)) != -faces_along) return;
+        ray_.push_back({soup.transition[other], faces_along});
+        change(soup.transitions.of(soup.transition[other]), faces_along);
+    });
+}
+
+Status Classifier::visit_component(std::uint32_t start) {
+    const std::uint32_t seed = find_seed(start);
+    OCTAVO_CHECK(seed != no_index, "a component of the arrangement has no corner of a facet");
+    add_ray(seed);
+    const Status status = walk(region_[2 * patches_.of_triangle[seed]]);
+    // The walk has taken its changes back unless it failed; those of the ray remain.
+    for (const auto& [transition, sign] : ray_) change(complex_.soup->transitions.of(transition), -sign);
+    ray_.clear();
+    return status;
+}
+
+Status Classifier::walk(std::uint32_t start) {
+    struct Step {
+        std::uint32_t region, next;  ///< next: position in sides_
+        PatchSide through;           ///< the side of the patch by which the region was left before this one
+    };
+    std::vector<Step> path{{start, side_begin_[start], no_index}};
+    enter(start);
+    while (!path.empty()) {
+        Step& step = path.back();
+        if (step.next == side_begin_[step.region + 1]) {
+            const PatchSide through = step.through;
+            path.pop_back();
+            if (through != no_index) change(complex_.transitions.of(transition_[through / 2]), through % 2 ? 1 : -1);
+            continue;
+        }
+        const PatchSide s = sides_[step.next++];
+        const std::uint32_t other = region_[s ^ 1];
+        const std::span<const Delta> deltas = complex_.transitions.of(transition_[s / 2]);
+        const int sign = s % 2 ? -1 : 1;  // from the front, the winding behind is greater by the change
+        if (inside_[other] != unvisited) {
+            std::uint64_t expected = fingerprint_;
+            for (const Delta& delta : deltas)
+                expected += weight_of(delta.operand) * static_cast<std::uint64_t>(static_cast<std::int64_t>(sign * delta.turns));
+            if (expected != fingerprint_of_[other])
+                return Error{ErrorCode::internal, "winding numbers contradict each other", {}};
+            continue;
+        }
+        change(deltas, sign);
+        enter(other);
+        path.push_back({other, side_begin_[other], s});
+    }
+    return Done{};
+}
+
+}  // namespace
+
+Result<Classification> classify(const Complex& complex, const PointTable& points, const FacetTree& tree,
+                                const Patches& patches, const Program& program, const Context& context) {
+    return Classifier(complex, points, tree, patches, program).run(context);
+}
+
+}  // namespace octavo::boolean

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <octavo/base/context.hpp>
+#include <octavo/base/result.hpp>
+#include <octavo/boolean/program.hpp>
+#include <octavo/csg/expression.hpp>
+#include <octavo/mesh/mesh.hpp>
+
+// Exact set operations on solids bounded by triangle meshes: a whole expression of any number of operands in one
+// pass, without intermediate meshes.
+//
+// A point is inside an operand when the operand's surface winds about it at least once, so operands may be nested
+// and may intersect themselves. Every decision is exact on the joint lattice of the operands.
+//
+// Guaranteed of a result: closed, consistently oriented, every edge with two facets and every vertex with one fan
+// (where the solid touches itself, vertices are doubled), no T-junctions; facets that nothing cut are the input's;
+// the same bytes for any number of threads.
+// Not guaranteed: detail finer than the lattice (2^-26 of the joint bounds), and that rounding the exact
+// intersection points to doubles leaves the smallest facets as they were; the report counts those it turned over.
+// Source: C. J. Ogayar, F. R. Feito, R. J. Segura, M. Rivero, Evaluación optimizada de árboles CSG de sólidos
+// triangulados de forma libre, 2008 (one pass over the whole tree: cut only what meets, classify groups by one
+// point, select by the expression). We depart from it in exactness, in winding numbers instead of in/out/on, and
+// in classifying all groups of a component by one ray.
+
+namespace octavo::boolean {
+
+enum class Simplify : std::uint8_t {
+    none,
+    coplanar,  ///< pieces of cut facets that lie in one plane become one polygon again
+};
+
+struct Options {
+    Simplify simplify = Simplify::coplanar;
+};
+
+struct Report {
+    std::size_t operands = 0;
+    std::size_t input_triangles = 0;
+    std::size_t coincident_facets = 0;  ///< merged with another facet before anything else
+    std::size_t flat_facets = 0;        ///< had no area on the lattice
+    std::size_t moved_vertices = 0;     ///< by snapping
+    double largest_displacement = 0;    ///< by snapping, in world units
+    std::size_t pairs_tested = 0;       ///< facet against facet
+    std::size_t cut_facets = 0;
+    std::size_t pieces = 0;             ///< of the cut facets
+    std::size_t constructed_points = 0;
+    std::size_t patches = 0;
+    std::size_t components = 0;         ///< each located by one exact ray
+    std::size_t exact_fallbacks = 0;    ///< predicates that the floating-point filter left undecided
+    double largest_rounding = 0;        ///< of an exact point on export, in world units
+    std::size_t inverted_facets = 0;    ///< turned over or made flat by rounding on export
+    std::size_t duplicated_vertices = 0;
+    bool closed = true;
+    bool manifold = true;
+    std::vector<std::string> warnings;
+
+    /// Wall seconds of the phases, in their order.
+    struct Phase {
+        const char* name;
+        double seconds;
+    };
+    std::vector<Phase> phases;
+};
+
+struct Evaluated {
+    mesh::Mesh mesh;  ///< `sources` names operand and facet for each triangle; may be empty, with a warning
+    Report report;
+};
+
+/// Evaluates `program` over closed meshes; operand k of the program is `operands[k]`.
+/// Errors: not_a_solid when an operand is open or inconsistently oriented (with facet ids), bad_input when a mesh
+/// is malformed or the result unbounded, limit when the operands have no common lattice, cancelled.
+Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Program& program,
+                           const Options& options = {}, const Context& context = {});
+
+/// Evaluates an expression of meshes (csg::Polyhedron) and boxes under affine maps, which are composed and applied
+/// once, in double. Operands are numbered in the order in which the leaves come. Errors: also unsupported when a
+/// leaf has no facets (curved primitives must be tessellated first).
+Result<Evaluated> evaluate(const csg::Expr& expression, const Options& options = {}, const Context& context = {});
+
+Result<Evaluated> unite(std::span<const mesh::Mesh> operands, const Options& options = {}, const Context& context = {});
+Result<Evaluated> intersect(std::span<const mesh::Mesh> operands, const Options& options = {},
+                            const Context& context = {});
+/// The first operand without all others.
+Result<Evaluated> subtract(std::span<const mesh::Mesh> operands, const Options& options = {},
+                           const Context& context = {});
+/// What is inside an odd number of operands.
+Result<Evaluated> symmetric_difference(std::span<const mesh::Mesh> operands, const Options& options = {},
+                                       const Context& context = {});
+
+}  // namespace octavo::boolean

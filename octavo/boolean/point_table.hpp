@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include <octavo/boolean/soup.hpp>
+#include <octavo/exact/homogeneous_point.hpp>
+
+// Every point of the arrangement under one id: its value decides, not how it was constructed.
+//
+// Problem: one point of space comes about in many ways (an edge through a facet, seen from either neighbour of
+// the edge; four planes through one point; an intersection that happens to be an input vertex), and the result
+// conforms only if all of them become one vertex. Idea: a hash by the exact lattice cell of the point, which is a
+// function of its value alone, and exact comparison inside a cell. Points with lattice coordinates that are input
+// vertices get the vertex's id. Facets that share a point then share its id without ever talking to each other.
+//
+// Ids: [0, vertices) are the soup's lattice points, then come constructed points in the order of insertion.
+// Cost: about 0.1 µs an insertion; 88 or 120 bytes a constructed point and 16 more for the table.
+
+namespace octavo::boolean {
+
+using PointId = std::uint32_t;
+
+class PointTable {
+  public:
+    explicit PointTable(const Soup& soup) : soup_(soup), slots_(64, no_index) {}
+
+    PointId add(const exact::EdgePoint& point);
+    PointId add(const exact::TriplePoint& point);
+
+    std::size_t size() const { return soup_.points.size() + constructed_.size(); }
+    bool is_vertex(PointId id) const { return id < soup_.points.size(); }
+    exact::Point vertex(PointId id) const { return soup_.points[id]; }
+
+    /// Calls `visit` with the Point, EdgePoint or TriplePoint.
+    template <class Visit>
+    decltype(auto) with(PointId id, const Visit& visit) const {
+        if (is_vertex(id)) return visit(soup_.points[id]);
+        const Constructed& constructed = constructed_[id - soup_.points.size()];
+        return constructed.is_triple ? visit(triple_points_[constructed.index])
+                                     : visit(edge_points_[constructed.index]);
+    }
+
+    /// Lattice coordinates; exact for vertices, else off by at most 4u times themselves.
+    Vec3 approximation(PointId id) const {
+        return with(id, [](const auto& point) { return exact::homogeneous(point).approximation(); });
+    }
+
+    /// Positive when coordinate `axis` of `first` is the greater one.
+    exact::Sign compare_coordinate(int axis, PointId first, PointId second) const;
+
+  private:
+    struct Constructed {
+        exact::Point cell;
+        std::uint32_t index : 31;
+        std::uint32_t is_triple : 1;
+    };
+    template <class P>
+    PointId add_to(const P& point, std::vector<P>& kind, bool is_triple);
+    void grow();
+
+    const Soup& soup_;
+    std::vector<exact::EdgePoint> edge_points_;
+    std::vector<exact::TriplePoint> triple_points_;
+    std::vector<Constructed> constructed_;
+    std::vector<std::uint32_t> slots_;
+};
+
+}  // namespace octavo::boolean

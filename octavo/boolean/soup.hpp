@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octavo/base/context.hpp>
+#include <octavo/base/result.hpp>
+#include <octavo/boolean/transition.hpp>
+#include <octavo/exact/lattice.hpp>
+#include <octavo/mesh/mesh.hpp>
+
+// All operands of a Boolean as one soup of facets on one lattice.
+//
+// Vertices are snapped and welded across operands, so that a vertex is its point. Facets without area are
+// dropped. Facets with the same three corners, of whatever operands, become one facet (the first) that carries
+// the sum of their winding changes; where the sum is nothing they vanish. Identical operands, the case that makes
+// pair tests explode, thus cost no more than one operand.
+//
+// Cost: linear; one hash look-up a vertex and one scattered write a facet.
+
+namespace octavo::boolean {
+
+inline constexpr std::uint32_t no_index = ~std::uint32_t{0};
+
+/// Finds lattice points by value.
+class PointIndex {
+  public:
+    PointIndex() = default;
+    explicit PointIndex(std::size_t expected);
+    /// The id of `point`, which is its position in `points`; appended there when it is new.
+    std::uint32_t add(exact::Point point, std::vector<exact::Point>& points);
+    /// no_index when it is not there.
+    std::uint32_t find(exact::Point point, std::span<const exact::Point> points) const;
+
+  private:
+    static std::uint64_t hash(exact::Point point);
+    void grow(std::span<const exact::Point> points);
+    std::vector<std::uint32_t> slots_;
+    std::size_t mask_ = 0, used_ = 0;
+};
+
+struct Soup {
+    exact::Lattice lattice;
+    std::vector<exact::Point> points;
+    PointIndex index;
+    std::vector<mesh::Triangle> facets;
+    std::vector<TransitionId> transition;  ///< per facet: winding behind minus winding in front
+    std::vector<std::uint32_t> origin;     ///< per facet: the input triangle, counted through all operands
+    std::vector<std::uint32_t> first_triangle;  ///< per operand, and one past the last
+    TransitionTable transitions;
+
+    double largest_displacement = 0;   ///< of a vertex by snapping, in world units
+    std::size_t moved_vertices = 0;    ///< not on the lattice before
+    std::size_t flat_facets = 0;       ///< dropped: no area on the lattice
+    std::size_t coincident_facets = 0; ///< merged into another facet
+
+    mesh::Source source(std::uint32_t facet) const;
+};
+
+/// Errors: bad_input when a vertex is not finite or a corner out of range; limit when there are too many facets
+/// or the operands' sizes and positions have no common lattice.
+Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, const Context& context = {});
+
+}  // namespace octavo::boolean

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octavo/boolean/point_table.hpp>
+#include <octavo/exact/plane.hpp>
+
+// A triangulation of a part of one lattice plane that holds given points and segments: the arrangement of all that
+// cuts a facet, or of facets that overlap in one plane.
+//
+// Idea: a triangulation is its own search structure. A point is located by walking to it and splits a triangle or
+// an edge. A segment is followed from its start: past vertices that lie on it, along edges that already run its
+// way, and through edges in its way. A free edge in its way is flipped away; a fixed edge is crossed in the point
+// that the planes behind both segments have in common with this plane, which becomes a vertex. So crossings,
+// overlaps and T-contacts of segments need no search and no cases of their own. Everything is decided by the exact
+// turn of three points, seen along the plane's dominant axis.
+//
+// Invariants: every triangle turns counter-clockwise seen from the front of the plane; every vertex is a different
+// point; an edge of the triangulation that lies on an inserted segment is fixed and knows the owners of all
+// segments on it; a segment ends where it ends.
+// Cost: about 0.2 µs a point plus the walk to it. Memory is reused by the next `begin`.
+// Sources: A. Lawson, Software for C1 surface interpolation, 1977 (walk, flips); S. Sloan, A fast algorithm for
+// generating constrained Delaunay triangulations, 1993 (edges by flips). Triangles here are not Delaunay unless
+// `refine` is called.
+
+namespace octavo::boolean {
+
+class Subdivision {
+  public:
+    using VertexId = std::uint32_t;
+    using TriangleId = std::uint32_t;
+
+    /// A chain of what lies on a fixed edge.
+    struct Owner {
+        std::uint32_t line = 0;  ///< plane that holds the segment, as numbered by `add_line`
+        std::uint32_t tag = 0;   ///< the caller's name for the segment
+        std::uint32_t next = 0;  ///< 1 + index of the next owner; 0 ends the chain
+    };
+
+    struct Triangle {
+        VertexId v[3];
+        TriangleId neighbour[3];  ///< across the edge from v[k] to v[k + 1]; no_index outside
+        std::uint32_t owner[3];   ///< 1 + index of the first owner of that edge; 0: the edge is free
+    };
+
+    explicit Subdivision(const PointTable& points) : points_(points) {}
+
+    /// Starts with the triangle of three lattice points of `plane` (or any that, seen along the plane's dominant
+    /// axis, surround all that will be inserted). They become vertices 0, 1 and 2 and must turn
+    /// counter-clockwise seen from the plane's front; `ids` are their point ids, no_index for points that are in no
+    /// table.
+    void begin(const exact::Plane& plane, const exact::Point (&corners)[3], const PointId (&ids)[3]);
+
+    /// The plane that cuts segments out of this one.
+    std::uint32_t add_line(const exact::Plane& plane) {
+        lines_.push_back(plane);
+        return static_cast<std::uint32_t>(lines_.size() - 1);
+    }
+
+    /// The vertex at a point of the plane inside or on the first triangle; the same vertex for the same id.
+    VertexId add_point(PointId id);
+
+    /// Fixes the segment between two vertices, which lies on line `line`.
+    void add_segment(VertexId from, VertexId to, std::uint32_t line, std::uint32_t tag);
+
+    /// Flips free edges towards a Delaunay triangulation as far as rounded coordinates tell; never across a fixed
+    /// edge and never so that a triangle turns over.
+    void refine();
+
+    std::span<const Triangle> triangles() const { return triangles_; }
+    const Owner& owner(std::uint32_t index) const { return owners_[index]; }
+    std::size_t vertices() const { return vertices_.size(); }
+
+    /// Point id of a vertex; for a vertex that came about by crossing segments, new_point + its index in
+    /// `new_points`.
+    std::uint32_t point_of(VertexId vertex) const { return vertices_[vertex].id; }
+    static constexpr std::uint32_t new_point = std::uint32_t{1} << 31;
+    std::span<const exact::TriplePoint> new_points() const { return new_points_; }
+
+    /// Positive: a, b, c turn counter-clockwise seen from the front of the plane.
+    exact::Sign turn(VertexId a, VertexId b, VertexId c) const;
+
+  private:
+    struct Vertex {
+        double x, y;               ///< seen along the dominant axis, from the front
+        std::uint32_t id;
+        TriangleId triangle;       ///< one that has it as a corner
+        exact::Point lattice;      ///< where id says so
+        enum class Kind : std::uint8_t { lattice, table, crossing } kind;
+    };
+    struct Location {
+        TriangleId triangle;
+        int edge;      ///< of the triangle, on which the point lies; -1: inside
+    };
+    struct Edge {
+        TriangleId triangle;
+        int k;
+    };
+
+    VertexId push(const Vertex& vertex);
+    template <class Visit>
+    decltype(auto) with(const Vertex& vertex, const Visit& visit) const;
+    exact::Sign exact_turn(const Vertex& a, const Vertex& b, const Vertex& c) const;
+    bool is_ahead(VertexId from, VertexId to, VertexId vertex) const;
+    Location locate(VertexId vertex);
+    void split_triangle(TriangleId triangle, VertexId vertex);
+    void split_edge(TriangleId triangle, int k, VertexId vertex);
+    void flip(TriangleId triangle, int k);
+    Edge find_edge(VertexId from, VertexId to) const;
+    template <class Visit>
+    bool any_around(VertexId vertex, const Visit& visit) const;
+    void own(Edge edge, std::uint32_t line, std::uint32_t tag);
+    VertexId advance(VertexId from, VertexId to, std::uint32_t line, std::uint32_t tag);
+    VertexId cross(Edge fixed, std::uint32_t line);
+    void force_edge(VertexId from, VertexId to);
+    int index_in(TriangleId triangle, VertexId vertex) const {
+        const Triangle& t = triangles_[triangle];
+        return t.v[0] == vertex ? 0 : t.v[1] == vertex ? 1 : 2;
+    }
+    int back_index(TriangleId triangle, TriangleId neighbour) const {
+        const Triangle& t = triangles_[triangle];
+        return t.neighbour[0] == neighbour ? 0 : t.neighbour[1] == neighbour ? 1 : 2;
+    }
+    void link(TriangleId triangle, int k, TriangleId neighbour, int back) {
+        triangles_[triangle].neighbour[k] = neighbour;
+        if (neighbour != no_index) triangles_[neighbour].neighbour[back] = triangle;
+    }
+
+    const PointTable& points_;
+    exact::Plane plane_;
+    int axis_ = 2, i_ = 0, j_ = 1;
+    bool reversed_ = false;
+    std::vector<exact::Plane> lines_;
+    std::vector<Vertex> vertices_;
+    std::vector<Triangle> triangles_;
+    std::vector<Owner> owners_;
+    std::vector<exact::TriplePoint> new_points_;
+    std::vector<std::uint32_t> vertex_of_;   ///< hash of point id to vertex
+    std::vector<std::pair<VertexId, VertexId>> in_the_way_;
+    TriangleId hint_ = 0;
+    std::uint32_t walk_seed_ = 1;
+};
+
+}  // namespace octavo::boolean
