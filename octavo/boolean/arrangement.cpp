@@ -109,28 +109,6 @@ Pieces subdivide_facet(const Soup& soup, const Sheet& sheet, Subdivision& subdiv
     return pieces;
 }
 
-/// Starts with a triangle that holds the whole sheet strictly inside.
-void begin_round(const Soup& soup, const Sheet& sheet, const Plane& plane, Subdivision& subdivision) {
-    const int axis = plane.dominant_axis(), i = (axis + 1) % 3, j = (axis + 2) % 3;
-    std::int32_t low[2] = {exact::universe_side, exact::universe_side}, high[2] = {0, 0};
-    for (const std::uint32_t facet : sheet.facets)
-        for (const std::uint32_t corner : soup.facets[facet]) {
-            const Point point = soup.points[corner];
-            low[0] = std::min(low[0], point[i]), high[0] = std::max(high[0], point[i]);
-            low[1] = std::min(low[1], point[j]), high[1] = std::max(high[1], point[j]);
-        }
-    const std::int32_t reach = (high[0] - low[0]) + (high[1] - low[1]) + 4;  // < 2^27 + 4
-    const auto at = [axis](std::int32_t x, std::int32_t y) {
-        return axis == 0 ? Point{0, x, y} : axis == 1 ? Point{y, 0, x} : Point{x, y, 0};
-    };
-    const Point a = at(low[0] - 1, low[1] - 1), b = at(low[0] - 1 + reach, low[1] - 1),
-                c = at(low[0] - 1, low[1] - 1 + reach);
-    const PointId ids[3] = {no_index, no_index, no_index};
-    const bool up = plane.normal(axis) > 0;
-    const Point corners[3] = {a, up ? b : c, up ? c : b};
-    subdivision.begin(plane, corners, ids);
-}
-
 /// Labels the cells between borders: which facets of the sheet cover them. Crossing a border of a facet enters or
 /// leaves it.
 class CoverSearch {
@@ -228,7 +206,7 @@ class CoverSearch {
 
 Pieces subdivide_sheet(const Soup& soup, const Sheet& sheet, Subdivision& subdivision) {
     const Plane plane = plane_of(soup, sheet.facets[0]);
-    begin_round(soup, sheet, plane, subdivision);
+    subdivision.begin_round(plane, soup, sheet.facets);
     for (const std::uint32_t facet : sheet.facets)
         for (const std::uint32_t corner : soup.facets[facet]) subdivision.add_point(corner);
     insert_points(sheet, subdivision);

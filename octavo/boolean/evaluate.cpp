@@ -3,7 +3,7 @@
 
 #include <octavo/boolean/assemble.hpp>
 #include <octavo/boolean/evaluate.hpp>
-//SIMP#include <octavo/boolean/simplify.hpp>
+#include <octavo/boolean/simplify.hpp>
 #include <octavo/exact/counters.hpp>
 
 namespace octavo::boolean {
@@ -97,7 +97,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
 
     phases.begin("assemble", 0.85);
     Surface surface = select(complex, *patches, *classification);
-    (void)options; //SIMPif (options.simplify == Simplify::coplanar) surface = merge_coplanar(surface, *soup, points, context);
+    if (options.simplify == Simplify::coplanar) surface = merge_coplanar(surface, *soup, points, context);
     Assembled assembled = assemble(surface, *soup, points, special_points(surface, *patches, points.size()), context);
     phases.end();
     note_output(assembled, report);

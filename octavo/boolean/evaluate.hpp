@@ -9,7 +9,6 @@
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
 #include <octavo/boolean/program.hpp>
-#include <octavo/csg/expression.hpp>
 #include <octavo/mesh/mesh.hpp>
 
 // Exact set operations on solids bounded by triangle meshes: a whole expression of any number of operands in one
@@ -78,11 +77,6 @@ struct Evaluated {
 /// is malformed or the result unbounded, limit when the operands have no common lattice, cancelled.
 Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Program& program,
                            const Options& options = {}, const Context& context = {});
-
-/// Evaluates an expression of meshes (csg::Polyhedron) and boxes under affine maps, which are composed and applied
-/// once, in double. Operands are numbered in the order in which the leaves come. Errors: also unsupported when a
-/// leaf has no facets (curved primitives must be tessellated first).
-Result<Evaluated> evaluate(const csg::Expr& expression, const Options& options = {}, const Context& context = {});
 
 Result<Evaluated> unite(std::span<const mesh::Mesh> operands, const Options& options = {}, const Context& context = {});
 Result<Evaluated> intersect(std::span<const mesh::Mesh> operands, const Options& options = {},

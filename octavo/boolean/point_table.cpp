@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include <octavo/boolean/any_point.hpp>
 #include <octavo/boolean/point_table.hpp>
 #include <octavo/exact/compare.hpp>
 
@@ -89,6 +90,30 @@ exact::Sign PointTable::compare_coordinate(int axis, PointId first, PointId seco
     return with(first, [&](const auto& p) {
         return with(second, [&](const auto& q) { return exact::compare_coordinate(axis, p, q); });
     });
+}
+
+exact::Sign PointTable::orient2d(int axis, PointId p, PointId q, PointId r) const {
+    if (is_vertex(p) && is_vertex(q) && is_vertex(r)) return exact::orient2d(axis, vertex(p), vertex(q), vertex(r));
+    // The filter of exact/orient_in_plane.hpp with R = 2^26: e = 12u R < 2^-23.
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const Vec3 a = approximation(p), b = approximation(q), c = approximation(r);
+    const double ux = b[i] - a[i], uy = b[j] - a[j], vx = c[i] - a[i], vy = c[j] - a[j];
+    const double determinant = ux * vy - uy * vx;
+    const double sum = (std::fabs(ux) + std::fabs(uy)) + (std::fabs(vx) + std::fabs(vy));
+    constexpr double e = 0x1p-23;
+    if (std::fabs(determinant) > 2 * e * (sum + e)) return exact::sign_of(determinant);
+    const PointId corner[3] = {p, q, r};
+    return exact_turn(axis, [&](int k, const auto& visit) { return with(corner[k], visit); });
+}
+
+bool PointTable::is_between(int axis, PointId from, PointId middle, PointId to) const {
+    if (orient2d(axis, from, middle, to) != exact::Sign::zero) return false;
+    for (const int coordinate : {(axis + 1) % 3, (axis + 2) % 3}) {
+        const exact::Sign before = compare_coordinate(coordinate, middle, from);
+        const exact::Sign after = compare_coordinate(coordinate, to, middle);
+        if (before != exact::Sign::zero || after != exact::Sign::zero) return before == after;
+    }
+    return false;
 }
 
 }  // namespace octavo::boolean

@@ -51,6 +51,12 @@ class PointTable {
     /// Positive when coordinate `axis` of `first` is the greater one.
     exact::Sign compare_coordinate(int axis, PointId first, PointId second) const;
 
+    /// Which way three points turn, seen from the far end of `axis`.
+    exact::Sign orient2d(int axis, PointId p, PointId q, PointId r) const;
+
+    /// Whether `middle` lies on the segment between two points, all in a plane that is not parallel to `axis`.
+    bool is_between(int axis, PointId from, PointId middle, PointId to) const;
+
   private:
     struct Constructed {
         exact::Point cell;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include <octavo/base/check.hpp>
 #include <octavo/boolean/program.hpp>
 
 namespace octavo::boolean {
@@ -44,43 +45,6 @@ Program Program::union_of(std::uint32_t operands) { return flat(Gate::any, opera
 Program Program::intersection(std::uint32_t operands) { return flat(Gate::all, operands, false); }
 Program Program::difference(std::uint32_t operands) { return flat(Gate::all, operands, true); }
 Program Program::symmetric_difference(std::uint32_t operands) { return flat(Gate::odd, operands, false); }
-
-Program Program::from(const csg::NormalForm& form) {
-    // Read backwards, prefix order is postfix order: every operation finds its operands on the stack.
-    struct Pending {
-        NodeId node;
-        bool complemented;
-        std::uint32_t size;
-    };
-    Program program;
-    for (std::uint32_t leaf = 0; leaf < form.leaves.size(); ++leaf) program.operand(leaf);
-    std::vector<Pending> stack;
-    std::vector<NodeId> inputs;
-    std::vector<char> flags;
-    for (std::size_t at = form.tokens.size(); at-- > 0;) {
-        const csg::NormalToken& token = form.tokens[at];
-        if (token.kind == csg::NormalKind::leaf) {
-            stack.push_back({program.operand(token.leaf), token.complemented, token.size});
-            continue;
-        }
-        inputs.clear(), flags.clear();
-        for (std::uint32_t below = token.size - 1; below > 0; below -= stack.back().size, stack.pop_back()) {
-            inputs.push_back(stack.back().node);
-            flags.push_back(stack.back().complemented);
-        }
-        const auto negated = std::make_unique<bool[]>(flags.size());
-        for (std::size_t i = 0; i < flags.size(); ++i) negated[i] = flags[i] != 0;
-        const Gate gate = token.kind == csg::NormalKind::union_of       ? Gate::any
-                          : token.kind == csg::NormalKind::intersection ? Gate::all
-                          : token.kind == csg::NormalKind::constant     ? Gate::any
-                                                                        : Gate::odd;
-        stack.push_back({program.gate(gate, inputs, {negated.get(), flags.size()}), token.complemented, token.size});
-    }
-    // A gate of one input ends the program, so that the root is the last node whatever the form was.
-    const bool negated = stack.back().complemented;
-    program.gate(Gate::any, {&stack.back().node, 1}, {&negated, 1});
-    return program;
-}
 
 Indicator::Indicator(const Program& program)
     : program_(program), true_inputs_(program.nodes_.size(), 0), value_(program.nodes_.size(), 0) {

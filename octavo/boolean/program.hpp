@@ -5,9 +5,6 @@
 #include <span>
 #include <vector>
 
-#include <octavo/base/result.hpp>
-#include <octavo/csg/normal_form.hpp>
-
 // A set expression over numbered operands, in the form in which classification evaluates it.
 //
 // Problem: the indicator of an expression of thousands of operands is asked for once per region of space, and
@@ -35,8 +32,6 @@ class Program {
     /// Operand 0 without all others.
     static Program difference(std::uint32_t operands);
     static Program symmetric_difference(std::uint32_t operands);
-    /// Operand k is leaf k of the form.
-    static Program from(const csg::NormalForm& form);
 
     /// Number of operands named, at least one more than the greatest index.
     std::uint32_t operands() const { return static_cast<std::uint32_t>(node_of_operand_.size()); }

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <octavo/boolean/any_point.hpp>
 #include <octavo/boolean/subdivision.hpp>
 #include <octavo/exact/compare.hpp>
 #include <octavo/exact/intersect.hpp>
-#include <octavo/exact/orient_in_plane.hpp>
 
 namespace octavo::boolean {
 
@@ -27,6 +27,27 @@ void Subdivision::begin(const exact::Plane& plane, const exact::Point (&corners)
                             Vertex::Kind::lattice};
         push(vertex);
     }
+}
+
+void Subdivision::begin_round(const exact::Plane& plane, const Soup& soup, std::span<const std::uint32_t> facets) {
+    const int axis = plane.dominant_axis(), i = (axis + 1) % 3, j = (axis + 2) % 3;
+    std::int32_t low[2] = {exact::universe_side, exact::universe_side}, high[2] = {0, 0};
+    for (const std::uint32_t facet : facets)
+        for (const std::uint32_t corner : soup.facets[facet]) {
+            const exact::Point point = soup.points[corner];
+            low[0] = std::min(low[0], point[i]), high[0] = std::max(high[0], point[i]);
+            low[1] = std::min(low[1], point[j]), high[1] = std::max(high[1], point[j]);
+        }
+    const std::int32_t reach = (high[0] - low[0]) + (high[1] - low[1]) + 4;  // < 2^27 + 4
+    const auto at = [axis](std::int32_t x, std::int32_t y) {
+        return axis == 0 ? exact::Point{0, x, y} : axis == 1 ? exact::Point{y, 0, x} : exact::Point{x, y, 0};
+    };
+    const exact::Point a = at(low[0] - 1, low[1] - 1), b = at(low[0] - 1 + reach, low[1] - 1),
+                       c = at(low[0] - 1, low[1] - 1 + reach);
+    const PointId ids[3] = {no_index, no_index, no_index};
+    const bool up = plane.normal(axis) > 0;
+    const exact::Point corners[3] = {a, up ? b : c, up ? c : b};
+    begin(plane, corners, ids);
 }
 
 Subdivision::VertexId Subdivision::push(const Vertex& vertex) {
@@ -69,39 +90,14 @@ Sign Subdivision::turn(VertexId a, VertexId b, VertexId c) const {
     return exact_turn(p, q, r);
 }
 
-namespace {
-
-exact::EdgePoint as_edge_point(exact::Point p) { return exact::EdgePoint(p); }
-exact::EdgePoint as_edge_point(const exact::EdgePoint& p) { return p; }
-exact::EdgePoint as_edge_point(const exact::TriplePoint&) { return {}; }
-
-exact::TriplePoint as_triple_point(exact::Point p) { return exact::TriplePoint(p); }
-exact::TriplePoint as_triple_point(const exact::EdgePoint& p) {
-    using Numerator = exact::TriplePoint::Numerator;
-    using Weight = exact::TriplePoint::Weight;
-    return {Numerator(p.numerator(0)), Numerator(p.numerator(1)), Numerator(p.numerator(2)), Weight(p.weight())};
-}
-exact::TriplePoint as_triple_point(const exact::TriplePoint& p) { return p; }
-
-bool is_triple(exact::Point) { return false; }
-bool is_triple(const exact::EdgePoint&) { return false; }
-bool is_triple(const exact::TriplePoint&) { return true; }
-
-}  // namespace
-
 Sign Subdivision::exact_turn(const Vertex& a, const Vertex& b, const Vertex& c) const {
-    exact::count_exact(exact::Predicate::orient_in_plane);
+    using Kind = Vertex::Kind;
     Sign sign;
-    const auto triple = [this](const Vertex& v) { return with(v, [](const auto& p) { return is_triple(p); }); };
-    if (a.kind == Vertex::Kind::lattice && b.kind == Vertex::Kind::lattice && c.kind == Vertex::Kind::lattice) {
+    if (a.kind == Kind::lattice && b.kind == Kind::lattice && c.kind == Kind::lattice) {
         sign = exact::orient2d(axis_, a.lattice, b.lattice, c.lattice);
-    } else if (!triple(a) && !triple(b) && !triple(c)) {
-        // Two widths instead of all combinations of kinds: this path is rare, its code need not be large.
-        const auto point = [this](const Vertex& v) { return with(v, [](const auto& p) { return as_edge_point(p); }); };
-        sign = exact::exact_orient2d(axis_, point(a), point(b), point(c));
     } else {
-        const auto point = [this](const Vertex& v) { return with(v, [](const auto& p) { return as_triple_point(p); }); };
-        sign = exact::exact_orient2d(axis_, point(a), point(b), point(c));
+        const Vertex* corner[3] = {&a, &b, &c};
+        sign = boolean::exact_turn(axis_, [&](int k, const auto& visit) { return with(*corner[k], visit); });
     }
     return reversed_ ? -sign : sign;
 }

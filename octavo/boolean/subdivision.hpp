@@ -54,6 +54,10 @@ class Subdivision {
     /// table.
     void begin(const exact::Plane& plane, const exact::Point (&corners)[3], const PointId (&ids)[3]);
 
+    /// Starts with a triangle that holds the points of the soup's facets strictly inside. Its corners are in no
+    /// table.
+    void begin_round(const exact::Plane& plane, const Soup& soup, std::span<const std::uint32_t> facets);
+
     /// The plane that cuts segments out of this one.
     std::uint32_t add_line(const exact::Plane& plane) {
         lines_.push_back(plane);

@@ -121,5 +121,208 @@ TEST_P(RandomConvexBodies, GiveTheVolumeThatRationalClippingGives) {
 INSTANTIATE_TEST_SUITE_P(Sizes, RandomConvexBodies,
                          testing::Combine(testing::Values(2, 3, 4), testing::Values(2, 3, 5)));
 
+/// Several bodies as one operand, which then intersects itself.
+mesh::Mesh joined(const std::vector<Convex>& bodies) {
+    mesh::Mesh all;
+    for (const Convex& body : bodies) {
+        const auto first = static_cast<std::uint32_t>(all.vertices.size());
+        all.vertices.insert(all.vertices.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
+        for (const mesh::Triangle& t : body.mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return all;
+}
+
+/// Boxes on a grid, as bits of its cells.
+class Voxels {
+  public:
+    static constexpr int side = 6;
+    void add(tests::Grid low, tests::Grid high) {
+        for (int x = low[0]; x < high[0]; ++x)
+            for (int y = low[1]; y < high[1]; ++y)
+                for (int z = low[2]; z < high[2]; ++z) cells_[static_cast<std::size_t>((x * side + y) * side + z)] = 1;
+    }
+    bool at(std::size_t cell) const { return cells_[cell] != 0; }
+    static constexpr std::size_t count = side * side * side;
+
+  private:
+    std::array<char, count> cells_{};
+};
+
+TEST(Evaluate, CountsTheCellsOfOperandsThatAreManyOverlappingBoxes) {
+    for (int run = 0; run < 1500 * tests::effort() && !HasFailure(); ++run) {
+        std::mt19937 random(static_cast<unsigned>(run));
+        const auto number = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+        const auto operands = static_cast<std::uint32_t>(number(1, 5));
+        std::vector<Voxels> voxels(operands);
+        std::vector<mesh::Mesh> meshes;
+        for (std::uint32_t k = 0; k < operands; ++k) {
+            std::vector<Convex> boxes;
+            for (int i = number(1, 4); i > 0; --i) {
+                tests::Grid low, high;
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    low[axis] = number(0, Voxels::side - 1);
+                    high[axis] = number(low[axis] + 1, Voxels::side);
+                }
+                boxes.push_back(tests::box(low, high, number(0, 1) == 1));
+                voxels[k].add(low, high);
+            }
+            meshes.push_back(joined(boxes));
+        }
+        const RandomProgram expression = random_program(random, operands);
+        std::size_t volume = 0;
+        for (std::size_t cell = 0; cell < Voxels::count; ++cell) {
+            std::uint32_t bits = 0;
+            for (std::uint32_t k = 0; k < operands; ++k) bits |= static_cast<std::uint32_t>(voxels[k].at(cell)) << k;
+            volume += expression.holds(bits);
+        }
+        std::vector<const mesh::Mesh*> pointers;
+        for (const mesh::Mesh& mesh : meshes) pointers.push_back(&mesh);
+        for (const Simplify simplify : {Simplify::none, Simplify::coplanar})
+            expect_solid(evaluate(pointers, expression.program, {.simplify = simplify}), static_cast<double>(volume),
+                         "run " + std::to_string(run) + ", " + expression.text);
+    }
+}
+
+mesh::Mesh cube(double x, double y, double z, double side = 1) {
+    mesh::Mesh mesh = tests::box({0, 0, 0}, {1, 1, 1}).mesh;
+    for (Vec3& vertex : mesh.vertices) vertex = side * vertex + Vec3{x, y, z};
+    return mesh;
+}
+
+TEST(Evaluate, ReturnsNothingForASolidWithoutItself) {
+    const std::vector<mesh::Mesh> same{cube(0, 0, 0), cube(0, 0, 0)};
+    const Result<Evaluated> result = subtract(same);
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(result->mesh.triangles.empty());
+    EXPECT_TRUE(result->mesh.vertices.empty());
+    EXPECT_EQ(result->report.warnings, std::vector<std::string>{"the result is empty"});
+}
+
+TEST(Evaluate, ReturnsTheSolidForItsUnionWithItself) {
+    const std::vector<mesh::Mesh> same{cube(0, 0, 0), cube(0, 0, 0), cube(0, 0, 0)};
+    const Result<Evaluated> result = unite(same);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->mesh.triangles.size(), 12u);
+    expect_solid(result, 1, "A + A + A");
+}
+
+TEST(Evaluate, KeepsFacetsThatNothingCuts) {
+    const std::vector<mesh::Mesh> apart{cube(0, 0, 0), cube(5, 0, 0)};
+    const Result<Evaluated> result = unite(apart);
+    ASSERT_TRUE(result);
+    ASSERT_EQ(result->mesh.triangles.size(), 24u);
+    for (std::size_t i = 0; i < 24; ++i) {
+        const mesh::Source source = result->mesh.sources[i];
+        const mesh::Mesh& operand = apart[source.operand];
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_EQ(result->mesh.vertices[result->mesh.triangles[i][k]], operand.vertices[operand.triangles[source.face][k]]);
+    }
+}
+
+TEST(Evaluate, MergesCoplanarLeftoversOfTwoCubesInARow) {
+    // Each of the four long sides is a 2 x 1 rectangle, but for the halves of facets that the other cube leaves whole.
+    const std::vector<mesh::Mesh> row{cube(0, 0, 0), cube(0.5, 0, 0)};
+    const Result<Evaluated> result = unite(row);
+    expect_solid(result, 1.5, "two cubes in a row");
+    EXPECT_EQ(result->mesh.triangles.size(), 12u);
+    EXPECT_EQ(unite(row, {.simplify = Simplify::none})->mesh.triangles.size(), 44u);
+}
+
+TEST(Evaluate, DoublesTheEdgeOrVertexInWhichSolidsTouch) {
+    const Result<Evaluated> edge = unite(std::vector<mesh::Mesh>{cube(0, 0, 0), cube(1, 1, 0)});
+    expect_solid(edge, 2, "two cubes on an edge");
+    EXPECT_EQ(edge->mesh.vertices.size(), 16u);
+    EXPECT_EQ(edge->report.duplicated_vertices, 2u);
+    const Result<Evaluated> vertex = unite(std::vector<mesh::Mesh>{cube(0, 0, 0), cube(1, 1, 1)});
+    expect_solid(vertex, 2, "two cubes on a vertex");
+    EXPECT_EQ(vertex->mesh.vertices.size(), 16u);
+}
+
+TEST(Evaluate, SplitsAnEdgeOfTouchWhoseEndsAreJoinedOnBothSides) {
+    // Two cubes of the middle layer touch in an edge; the layers above and below join them at both its ends.
+    const std::vector<mesh::Mesh> parts{tests::box({0, 0, 0}, {2, 2, 1}).mesh, tests::box({0, 0, 1}, {1, 1, 2}).mesh,
+                                        tests::box({1, 1, 1}, {2, 2, 2}).mesh, tests::box({0, 0, 2}, {2, 2, 3}).mesh};
+    expect_solid(unite(parts), 10, "a doubled inner edge");
+}
+
+TEST(Evaluate, TakesSpaceAsInsideWhereAnOperandWindsAboutItAtLeastOnce) {
+    mesh::Mesh inward = cube(0.25, 0.25, 0.25, 0.5);
+    for (mesh::Triangle& t : inward.triangles) std::swap(t[1], t[2]);
+    mesh::Mesh hollow = cube(0, 0, 0);
+    for (const mesh::Triangle& t : inward.triangles) hollow.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+    hollow.vertices.insert(hollow.vertices.end(), inward.vertices.begin(), inward.vertices.end());
+    expect_solid(unite(std::vector<mesh::Mesh>{hollow}), 1 - 0.125, "a shell");
+    expect_solid(unite(std::vector<mesh::Mesh>{inward}), 0, "a body turned inside out");
+    // Wound twice, minus the once-wound inner cube: still inside.
+    mesh::Mesh twice = joined({tests::box({0, 0, 0}, {4, 4, 4}), tests::box({0, 0, 0}, {4, 4, 4})});
+    mesh::Mesh hole = tests::box({1, 1, 1}, {2, 2, 2}).mesh;
+    for (const mesh::Triangle& t : hole.triangles) twice.triangles.push_back({t[0] + 16, t[2] + 16, t[1] + 16});
+    twice.vertices.insert(twice.vertices.end(), hole.vertices.begin(), hole.vertices.end());
+    expect_solid(unite(std::vector<mesh::Mesh>{twice}), 64, "wound twice about a hole");
+}
+
+TEST(Evaluate, RefusesOpenOperandsAndNamesTheFacets) {
+    mesh::Mesh open = cube(3, 0, 0);
+    open.triangles.pop_back();
+    const Result<Evaluated> result = unite(std::vector<mesh::Mesh>{cube(0, 0, 0), open});
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::not_a_solid);
+    EXPECT_NE(result.error().sentence.find("operand 1"), std::string::npos) << result.error().sentence;
+    EXPECT_FALSE(result.error().place.faces.empty());
+
+    mesh::Mesh turned = cube(0, 0, 0);
+    std::swap(turned.triangles[3][0], turned.triangles[3][1]);
+    EXPECT_EQ(unite(std::vector<mesh::Mesh>{turned}).error().code, ErrorCode::not_a_solid);
+}
+
+TEST(Evaluate, AcceptsTJunctionsThatLeaveNoGap) {
+    // One edge of the cube has an extra vertex on one side only, by way of a facet without area.
+    mesh::Mesh mesh = cube(0, 0, 0);
+    const mesh::Triangle t = mesh.triangles[0];
+    const Vec3 middle = 0.5 * (mesh.vertices[t[0]] + mesh.vertices[t[1]]);
+    mesh.vertices.push_back(middle);
+    mesh.triangles[0] = {t[0], 8, t[2]};
+    mesh.triangles.push_back({8, t[1], t[2]});
+    expect_solid(unite(std::vector<mesh::Mesh>{mesh}), 1, "a T-junction");
+}
+
+TEST(Evaluate, RefusesWhatIsNoMeshOrHasNoBound) {
+    mesh::Mesh bad = cube(0, 0, 0);
+    bad.triangles[2][1] = 99;
+    EXPECT_EQ(unite(std::vector<mesh::Mesh>{bad}).error().code, ErrorCode::bad_input);
+    mesh::Mesh endless = cube(0, 0, 0);
+    endless.vertices[3].x = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(unite(std::vector<mesh::Mesh>{endless}).error().code, ErrorCode::bad_input);
+
+    Program complement;
+    const Program::NodeId a = complement.operand(0);
+    const bool negated = true;
+    complement.gate(Gate::any, {&a, 1}, {&negated, 1});
+    const mesh::Mesh solid = cube(0, 0, 0);
+    const mesh::Mesh* operand = &solid;
+    EXPECT_EQ(evaluate({&operand, 1}, complement).error().code, ErrorCode::bad_input);
+}
+
+TEST(Evaluate, GivesTheSameBytesForAnyNumberOfThreads) {
+    std::mt19937 random(7);
+    std::vector<mesh::Mesh> meshes;
+    for (int k = 0; k < 200; ++k) meshes.push_back(tests::random_convex(random, 12).mesh);
+    Context one, two;
+    one.threads = 1, two.threads = 2;
+    const Result<Evaluated> first = symmetric_difference(meshes, {}, one), second = symmetric_difference(meshes, {}, two);
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(tests::manifold_defect(first->mesh), "");
+    EXPECT_TRUE(first->mesh.vertices == second->mesh.vertices);
+    EXPECT_TRUE(first->mesh.triangles == second->mesh.triangles);
+    EXPECT_TRUE(first->mesh.sources == second->mesh.sources);
+}
+
+TEST(Evaluate, IsCancelled) {
+    const std::atomic<bool> stop{true};
+    Context context;
+    context.cancel = &stop;
+    EXPECT_EQ(unite(std::vector<mesh::Mesh>{cube(0, 0, 0), cube(0.5, 0.5, 0.5)}, {}, context).error().code, ErrorCode::cancelled);
+}
+
 }  // namespace
 }  // namespace octavo::boolean

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <octavo/base/parallel.hpp>
+#include <octavo/boolean/simplify.hpp>
+#include <octavo/boolean/subdivision.hpp>
+#include <octavo/mesh/disjoint_sets.hpp>
+
+namespace octavo::boolean {
+namespace {
+
+using exact::int128;
+using exact::Plane;
+using exact::wide;
+
+/// Whether two planes that share a line are one plane, fronts on the same side.
+bool same_plane(const Plane& a, const Plane& b) {
+    const auto minor = [&](int i, int j) { return wide(a.normal(i)) * b.normal(j) - wide(a.normal(j)) * b.normal(i); };
+    if (minor(1, 2) != 0 || minor(2, 0) != 0 || minor(0, 1) != 0) return false;
+    const int axis = a.dominant_axis();
+    return (a.normal(axis) > 0) == (b.normal(axis) > 0);
+}
+
+/// A facet's side along an edge with both ends at pieces.
+struct Side {
+    PointId low, high;
+    std::uint32_t triangle;
+    bool upward;
+};
+
+/// The borders that meet in a point: up to two neighbours along borders, or that there are more.
+struct Borders {
+    PointId neighbour[2] = {no_index, no_index};
+    bool more = false;
+    std::uint32_t triangle = no_index;  ///< one facet at the point, for its plane
+
+    void add(PointId point) {
+        if (neighbour[0] == point || neighbour[1] == point) return;
+        if (neighbour[0] == no_index)
+            neighbour[0] = point;
+        else if (neighbour[1] == no_index)
+            neighbour[1] = point;
+        else
+            more = true;
+    }
+};
+
+class CoplanarMerge {
+  public:
+    CoplanarMerge(const Surface& surface, const Soup& soup, const PointTable& points)
+        : surface_(surface), soup_(soup), points_(points), sets_(0) {}
+
+    Surface run(const Context& context) {
+        while (first_piece_ < surface_.triangles.size() && !surface_.facets[first_piece_].is_piece) ++first_piece_;
+        if (first_piece_ == surface_.triangles.size()) return surface_;
+        number_points();
+        find_sides();
+        find_regions();
+        find_needless();
+        return rebuild(context);
+    }
+
+  private:
+    std::size_t pieces() const { return surface_.triangles.size() - first_piece_; }
+
+    /// Points of pieces get numbers 0, 1, …; those that whole facets have are pinned.
+    void number_points() {
+        number_of_.assign(points_.size(), no_index);
+        for (std::size_t i = first_piece_; i < surface_.triangles.size(); ++i)
+            for (const PointId point : surface_.triangles[i]) {
+                if (number_of_[point] != no_index) continue;
+                number_of_[point] = static_cast<std::uint32_t>(borders_.size());
+                borders_.emplace_back();
+                borders_.back().triangle = static_cast<std::uint32_t>(i);
+            }
+        pinned_.assign(borders_.size(), 0);
+        for (std::size_t i = 0; i < first_piece_; ++i)
+            for (const PointId point : surface_.triangles[i])
+                if (number_of_[point] != no_index) pinned_[number_of_[point]] = 1;
+    }
+
+    void find_sides() {
+        for (std::uint32_t i = 0; i < surface_.triangles.size(); ++i) {
+            const mesh::Triangle& t = surface_.triangles[i];
+            for (int k = 0; k < 3; ++k) {
+                const PointId from = t[k], to = t[(k + 1) % 3];
+                if (i < first_piece_ && (number_of_[from] == no_index || number_of_[to] == no_index)) continue;
+                sides_.push_back({std::min(from, to), std::max(from, to), i, from < to});
+            }
+        }
+        std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+            return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+        });
+    }
+
+    bool is_inner(std::span<const Side> edge) const {
+        if (edge.size() != 2 || edge[0].upward == edge[1].upward || edge[0].triangle < first_piece_) return false;
+        const Surface::Facet &a = surface_.facets[edge[0].triangle], &b = surface_.facets[edge[1].triangle];
+        if (a.soup_facet == b.soup_facet) return true;
+        return same_plane(surface_.plane(soup_, edge[0].triangle), surface_.plane(soup_, edge[1].triangle));
+    }
+
+    void find_regions() {
+        sets_ = mesh::DisjointSets(pieces());
+        std::size_t borders = 0;
+        for (std::size_t i = 0, end; i < sides_.size(); i = end) {
+            for (end = i + 1; end < sides_.size() && sides_[end].low == sides_[i].low && sides_[end].high == sides_[i].high;)
+                ++end;
+            const std::span<const Side> edge{sides_.data() + i, end - i};
+            if (is_inner(edge)) {
+                sets_.unite(edge[0].triangle - static_cast<std::uint32_t>(first_piece_),
+                            edge[1].triangle - static_cast<std::uint32_t>(first_piece_));
+                continue;
+            }
+            borders_[number_of_[sides_[i].low]].add(sides_[i].high);
+            borders_[number_of_[sides_[i].high]].add(sides_[i].low);
+            for (const Side& side : edge)
+                if (side.triangle >= first_piece_) sides_[borders++] = side;
+        }
+        sides_.resize(borders);
+    }
+
+    void find_needless() {
+        needless_.assign(borders_.size(), 0);
+        for (PointId point = 0; point < number_of_.size(); ++point) {
+            const std::uint32_t number = number_of_[point];
+            if (number == no_index || pinned_[number]) continue;
+            const Borders& borders = borders_[number];
+            if (borders.more) continue;
+            if (borders.neighbour[0] == no_index) {
+                needless_[number] = 1;
+            } else if (borders.neighbour[1] != no_index) {
+                const int axis = surface_.plane(soup_, borders.triangle).dominant_axis();
+                needless_[number] = points_.is_between(axis, borders.neighbour[0], point, borders.neighbour[1]);
+            }
+        }
+    }
+
+    struct Region {
+        std::vector<std::uint32_t> triangles;                  ///< of the surface
+        std::vector<std::pair<PointId, PointId>> border;       ///< directed, needless points skipped
+    };
+
+    std::vector<Region> collect_regions() {
+        std::vector<Region> regions;
+        std::vector<std::uint32_t> region_of(pieces());
+        for (std::uint32_t piece = 0; piece < pieces(); ++piece) {
+            const std::uint32_t root = sets_.find(piece);
+            if (root == piece) {
+                region_of[piece] = static_cast<std::uint32_t>(regions.size());
+                regions.emplace_back();
+            }
+            region_of[piece] = region_of[root];
+            regions[region_of[piece]].triangles.push_back(piece + static_cast<std::uint32_t>(first_piece_));
+        }
+        for (const Side& side : sides_) {
+            PointId from = side.upward ? side.low : side.high, to = side.upward ? side.high : side.low;
+            if (needless_[number_of_[from]]) continue;
+            const PointId start = from;
+            while (needless_[number_of_[to]]) {
+                const Borders& borders = borders_[number_of_[to]];
+                const PointId next = borders.neighbour[0] == from ? borders.neighbour[1] : borders.neighbour[0];
+                from = to, to = next;
+            }
+            regions[region_of[side.triangle - first_piece_]].border.push_back({start, to});
+        }
+        return regions;
+    }
+
+    /// The region's triangles, from its border alone.
+    std::vector<mesh::Triangle> triangulate(Region& region, Subdivision& subdivision) const {
+        std::vector<std::uint32_t> facets;
+        for (const std::uint32_t triangle : region.triangles) facets.push_back(surface_.facets[triangle].soup_facet);
+        std::sort(facets.begin(), facets.end());
+        facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+        const Plane plane = surface_.plane(soup_, region.triangles[0]);
+        subdivision.begin_round(plane, soup_, facets);
+        for (const auto& [from, to] : region.border) subdivision.add_point(from);
+        // A border that the region has on both sides does not lead out of it.
+        constexpr std::uint32_t border = 0, slit = 1;
+        std::sort(region.border.begin(), region.border.end());
+        for (const auto& [from, to] : region.border) {
+            const bool both = std::binary_search(region.border.begin(), region.border.end(), std::pair{to, from});
+            subdivision.add_segment(subdivision.add_point(from), subdivision.add_point(to), 0, both ? slit : border);
+        }
+        subdivision.refine();
+
+        const auto all = subdivision.triangles();
+        std::vector<char> state(all.size(), unknown);
+        std::vector<std::uint32_t> stack;
+        std::uint32_t outer = 0;
+        const auto is_outer = [&](const Subdivision::Triangle& t) {
+            return subdivision.point_of(t.v[0]) == no_index || subdivision.point_of(t.v[1]) == no_index ||
+                   subdivision.point_of(t.v[2]) == no_index;
+        };
+        while (!is_outer(all[outer])) ++outer;
+        state[outer] = outside;
+        stack.push_back(outer);
+        while (!stack.empty()) {
+            const std::uint32_t at = stack.back();
+            stack.pop_back();
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t next = all[at].neighbour[k];
+                if (next == no_index || state[next] != unknown) continue;
+                const std::uint32_t owner = all[at].owner[k];
+                const bool crossed = owner && subdivision.owner(owner - 1).tag == border;
+                state[next] = crossed ? (state[at] == inside ? outside : inside) : state[at];
+                stack.push_back(next);
+            }
+        }
+        std::vector<mesh::Triangle> triangles;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (state[i] == inside)
+                triangles.push_back({subdivision.point_of(all[i].v[0]), subdivision.point_of(all[i].v[1]),
+                                     subdivision.point_of(all[i].v[2])});
+        return triangles;
+    }
+
+    Surface rebuild(const Context& context) {
+        std::vector<Region> regions = collect_regions();
+        std::vector<std::vector<mesh::Triangle>> triangles(regions.size());
+        parallel_chunks(context, regions.size(), 64, [&](std::size_t begin, std::size_t end) {
+            Subdivision subdivision(points_);
+            for (std::size_t i = begin; i < end; ++i)
+                if (regions[i].triangles.size() > 1) triangles[i] = triangulate(regions[i], subdivision);
+        });
+        Surface result;
+        const auto whole = static_cast<std::ptrdiff_t>(first_piece_);
+        result.triangles.assign(surface_.triangles.begin(), surface_.triangles.begin() + whole);
+        result.facets.assign(surface_.facets.begin(), surface_.facets.begin() + whole);
+        for (std::size_t i = 0; i < regions.size(); ++i) {
+            Surface::Facet facet = surface_.facets[regions[i].triangles[0]];
+            for (const std::uint32_t triangle : regions[i].triangles)
+                if (surface_.facets[triangle].soup_facet < facet.soup_facet) facet = surface_.facets[triangle];
+            if (regions[i].triangles.size() == 1) triangles[i] = {surface_.triangles[regions[i].triangles[0]]};
+            for (const mesh::Triangle& triangle : triangles[i]) {
+                result.triangles.push_back(triangle);
+                result.facets.push_back(facet);
+            }
+        }
+        return result;
+    }
+
+    static constexpr char unknown = 0, outside = 1, inside = 2;
+
+    const Surface& surface_;
+    const Soup& soup_;
+    const PointTable& points_;
+    std::size_t first_piece_ = 0;
+    std::vector<std::uint32_t> number_of_;
+    std::vector<Borders> borders_;
+    std::vector<char> pinned_, needless_;
+    std::vector<Side> sides_;  ///< all, then only those of pieces at borders
+    mesh::DisjointSets sets_;
+};
+
+}  // namespace
+
+Surface merge_coplanar(const Surface& surface, const Soup& soup, const PointTable& points, const Context& context) {
+    return CoplanarMerge(surface, soup, points).run(context);
+}
+
+}  // namespace octavo::boolean
