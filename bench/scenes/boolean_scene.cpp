@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
+
+#include <sys/resource.h>
 
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/io/read.hpp>
@@ -20,7 +20,9 @@ namespace {
 double cpu_seconds() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -51,7 +53,9 @@ int main(int argc, char** argv) {
             options.simplify = octavo::boolean::Simplify::none;
     }
     if (at + 1 >= argc) {
-        std::fprintf(stderr, "usage: %s [--repeat N] [--threads N] union|intersection|difference|xor FILE...\n", argv[0]);
+        std::fprintf(stderr,
+                     "usage: %s [--repeat N] [--threads N] union|intersection|difference|xor FILE...\n",
+                     argv[0]);
         return 2;
     }
     const std::string operation = argv[at++];
@@ -71,10 +75,11 @@ int main(int argc, char** argv) {
     double volume = 0;
     for (int run = 0; run < repeat; ++run) {
         const double start = cpu_seconds();
-        const auto result = operation == "union"          ? octavo::boolean::unite(operands, options, context)
-                            : operation == "intersection" ? octavo::boolean::intersect(operands, options, context)
-                            : operation == "difference"   ? octavo::boolean::subtract(operands, options, context)
-                                                          : octavo::boolean::symmetric_difference(operands, options, context);
+        const auto result =
+            operation == "union"          ? octavo::boolean::unite(operands, options, context)
+            : operation == "intersection" ? octavo::boolean::intersect(operands, options, context)
+            : operation == "difference"   ? octavo::boolean::subtract(operands, options, context)
+                                          : octavo::boolean::symmetric_difference(operands, options, context);
         seconds.push_back(cpu_seconds() - start);
         if (!result) {
             std::printf("{\"error\": \"%s\"}\n", result.error().describe().c_str());
@@ -86,12 +91,13 @@ int main(int argc, char** argv) {
         volume = volume_of(result->mesh);
     }
     std::sort(seconds.begin(), seconds.end());
-    std::printf("{\"cpu\": %.6f, \"triangles\": %zu, \"vertices\": %zu, \"volume\": %.15g, \"input\": %zu, "
-                "\"loaded_mb\": %.1f, \"peak_mb\": %.1f, \"pairs\": %zu, \"cut\": %zu, \"pieces\": %zu, "
-                "\"patches\": %zu, \"components\": %zu, \"exact\": %zu, \"inverted\": %zu, \"phases\": {",
-                seconds[seconds.size() / 2], triangles, vertices, volume, report.input_triangles, loaded,
-                peak_megabytes(), report.pairs_tested, report.cut_facets, report.pieces, report.patches,
-                report.components, report.exact_fallbacks, report.inverted_facets);
+    std::printf(
+        "{\"cpu\": %.6f, \"triangles\": %zu, \"vertices\": %zu, \"volume\": %.15g, \"input\": %zu, "
+        "\"loaded_mb\": %.1f, \"peak_mb\": %.1f, \"pairs\": %zu, \"cut\": %zu, \"pieces\": %zu, "
+        "\"patches\": %zu, \"components\": %zu, \"exact\": %zu, \"inverted\": %zu, \"phases\": {",
+        seconds[seconds.size() / 2], triangles, vertices, volume, report.input_triangles, loaded,
+        peak_megabytes(), report.pairs_tested, report.cut_facets, report.pieces, report.patches,
+        report.components, report.exact_fallbacks, report.inverted_facets);
     for (std::size_t i = 0; i < report.phases.size(); ++i)
         std::printf("%s\"%s\": %.4f", i ? ", " : "", report.phases[i].name, report.phases[i].seconds);
     std::printf("}}\n");

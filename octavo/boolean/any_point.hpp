@@ -16,7 +16,8 @@ inline exact::TriplePoint as_triple_point(exact::Point p) { return exact::Triple
 inline exact::TriplePoint as_triple_point(const exact::EdgePoint& p) {
     using Numerator = exact::TriplePoint::Numerator;
     using Weight = exact::TriplePoint::Weight;
-    return {Numerator(p.numerator(0)), Numerator(p.numerator(1)), Numerator(p.numerator(2)), Weight(p.weight())};
+    return {Numerator(p.numerator(0)), Numerator(p.numerator(1)), Numerator(p.numerator(2)),
+            Weight(p.weight())};
 }
 inline exact::TriplePoint as_triple_point(const exact::TriplePoint& p) { return p; }
 

@@ -29,7 +29,9 @@ struct Sheet {
 std::vector<Sheet> find_sheets(const Soup& soup, const Contacts& contacts) {
     mesh::DisjointSets sets(contacts.overlaps.empty() ? 0 : soup.facets.size());
     for (const Overlap& overlap : contacts.overlaps) sets.unite(overlap.first, overlap.second);
-    const auto root = [&](std::uint32_t facet) { return contacts.overlaps.empty() ? facet : sets.find(facet); };
+    const auto root = [&](std::uint32_t facet) {
+        return contacts.overlaps.empty() ? facet : sets.find(facet);
+    };
 
     std::vector<std::uint32_t> sheet_of(soup.facets.size(), no_index);
     std::vector<std::uint32_t> touched;
@@ -62,16 +64,17 @@ std::vector<Sheet> find_sheets(const Soup& soup, const Contacts& contacts) {
 struct Pieces {
     std::vector<mesh::Triangle> triangles;  ///< point ids, or Subdivision::new_point + index
     std::vector<exact::TriplePoint> new_points;
-    std::vector<std::uint32_t> cover;       ///< per triangle, which of the covers
+    std::vector<std::uint32_t> cover;  ///< per triangle, which of the covers
     struct Cover {
-        std::uint32_t facet;                ///< the first that covers
-        std::vector<Delta> deltas;          ///< used when `shared`
-        bool shared;                        ///< by several facets
+        std::uint32_t facet;        ///< the first that covers
+        std::vector<Delta> deltas;  ///< used when `shared`
+        bool shared;                ///< by several facets
     };
     std::vector<Cover> covers;
 };
 
-inline constexpr std::uint32_t is_cut_line = no_index;  ///< the tag of segments that are no border of a sheet's facet
+inline constexpr std::uint32_t is_cut_line =
+    no_index;  ///< the tag of segments that are no border of a sheet's facet
 
 /// All points that are known go in before any segment, so that a crossing of segments is never one of them.
 void insert_points(const Sheet& sheet, Subdivision& subdivision) {
@@ -85,7 +88,8 @@ void insert_segments(const Soup& soup, const Sheet& sheet, Subdivision& subdivis
     for (const Cut& cut : sheet.cuts) {
         if (cut.to == cut.from) continue;
         const std::uint32_t line = subdivision.add_line(plane_of(soup, cut.other));
-        subdivision.add_segment(subdivision.add_point(cut.from), subdivision.add_point(cut.to), line, is_cut_line);
+        subdivision.add_segment(subdivision.add_point(cut.from), subdivision.add_point(cut.to), line,
+                                is_cut_line);
     }
 }
 
@@ -124,7 +128,8 @@ class CoverSearch {
         std::vector<std::uint32_t> starts, stack;
         // The corner of the surrounding triangle lies in no facet.
         std::uint32_t outer = 0;
-        while (subdivision_.point_of(triangles[outer].v[0]) != no_index && subdivision_.point_of(triangles[outer].v[1]) != no_index &&
+        while (subdivision_.point_of(triangles[outer].v[0]) != no_index &&
+               subdivision_.point_of(triangles[outer].v[1]) != no_index &&
                subdivision_.point_of(triangles[outer].v[2]) != no_index)
             ++outer;
         inside.emplace_back();
@@ -215,7 +220,8 @@ Pieces subdivide_sheet(const Soup& soup, const Sheet& sheet, Subdivision& subdiv
         const mesh::Triangle& corner = soup.facets[facet];
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t from = corner[k], to = corner[(k + 1) % 3];
-            const std::uint32_t line = subdivision.add_line(Plane::along_axis(axis, soup.points[from], soup.points[to]));
+            const std::uint32_t line =
+                subdivision.add_line(Plane::along_axis(axis, soup.points[from], soup.points[to]));
             subdivision.add_segment(subdivision.add_point(from), subdivision.add_point(to), line, facet);
         }
     }
@@ -229,7 +235,8 @@ Pieces subdivide_sheet(const Soup& soup, const Sheet& sheet, Subdivision& subdiv
     for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
         if (cover[triangle] == no_index) continue;
         const Subdivision::Triangle& t = triangles[triangle];
-        mesh::Triangle corners{subdivision.point_of(t.v[0]), subdivision.point_of(t.v[1]), subdivision.point_of(t.v[2])};
+        mesh::Triangle corners{subdivision.point_of(t.v[0]), subdivision.point_of(t.v[1]),
+                               subdivision.point_of(t.v[2])};
         if (!search.same_way(pieces.covers[cover[triangle]].facet)) std::swap(corners[1], corners[2]);
         pieces.triangles.push_back(corners);
         pieces.cover.push_back(cover[triangle]);
@@ -243,7 +250,8 @@ void append(const Soup& soup, const Pieces& pieces, PointTable& points, Complex&
     for (const exact::TriplePoint& point : pieces.new_points) id_of_new.push_back(points.add(point));
     std::vector<TransitionId> transition;
     for (const Pieces::Cover& cover : pieces.covers)
-        transition.push_back(cover.shared ? complex.transitions.intern(cover.deltas) : soup.transition[cover.facet]);
+        transition.push_back(cover.shared ? complex.transitions.intern(cover.deltas)
+                                          : soup.transition[cover.facet]);
     for (std::size_t i = 0; i < pieces.triangles.size(); ++i) {
         mesh::Triangle corners = pieces.triangles[i];
         for (std::uint32_t& corner : corners)

@@ -45,7 +45,8 @@ struct Complex {
         return is_piece(triangle) ? piece_facet[triangle - soup->facets.size()] : triangle;
     }
     TransitionId transition(std::uint32_t triangle) const {
-        return is_piece(triangle) ? piece_transition[triangle - soup->facets.size()] : soup->transition[triangle];
+        return is_piece(triangle) ? piece_transition[triangle - soup->facets.size()]
+                                  : soup->transition[triangle];
     }
 };
 

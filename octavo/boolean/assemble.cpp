@@ -24,7 +24,8 @@ int index_of(const mesh::Triangle& triangle, std::uint32_t vertex) {
 /// Gives every fan at a special point a vertex of its own.
 class FanSplitter {
   public:
-    FanSplitter(const Surface& surface, const Soup& soup, const PointTable& points, const std::vector<char>& special)
+    FanSplitter(const Surface& surface, const Soup& soup, const PointTable& points,
+                const std::vector<char>& special)
         : surface_(surface), soup_(soup), points_(points), special_(special), sets_(0) {}
 
     /// Renames the corners of `triangles` from point ids to vertex numbers and appends the point of each vertex.
@@ -32,13 +33,15 @@ class FanSplitter {
         gather();
         for (PointId point = 0; point < special_.size(); ++point)
             if (begin_[point] != begin_[point + 1]) join_at(point);
-        std::vector<std::uint32_t> vertex_of_fan(corners_.size(), no_index), vertex_of_point(special_.size(), no_index);
+        std::vector<std::uint32_t> vertex_of_fan(corners_.size(), no_index),
+            vertex_of_point(special_.size(), no_index);
         for (std::size_t i = 0; i < triangles.size(); ++i)
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const PointId point = surface_.triangles[i][k];
                 std::uint32_t& vertex =
-                    special_[point] ? vertex_of_fan[sets_.find(slot_of(point, 4 * static_cast<std::uint32_t>(i) + k))]
-                                    : vertex_of_point[point];
+                    special_[point]
+                        ? vertex_of_fan[sets_.find(slot_of(point, 4 * static_cast<std::uint32_t>(i) + k))]
+                        : vertex_of_point[point];
                 if (vertex == no_index) {
                     vertex = static_cast<std::uint32_t>(point_of_vertex.size());
                     point_of_vertex.push_back(point);
@@ -105,7 +108,8 @@ class FanSplitter {
         const PointId low = std::min(point, sides[0].other), high = std::max(point, sides[0].other);
         about_.clear();
         for (std::uint32_t i = 0; i < sides.size(); ++i)
-            about_.push_back(turned(surface_.plane(soup_, corners_[sides[i].slot] / 4), sides[i].leaves == (point == low), i));
+            about_.push_back(turned(surface_.plane(soup_, corners_[sides[i].slot] / 4),
+                                    sides[i].leaves == (point == low), i));
         sort_about_edge(points_, low, high, about_);
         for (std::size_t i = 0; i < about_.size(); ++i) {
             const std::size_t next = (i + 1) % about_.size();
@@ -122,7 +126,7 @@ class FanSplitter {
     const Soup& soup_;
     const PointTable& points_;
     const std::vector<char>& special_;
-    mesh::DisjointSets sets_;               ///< over slots of corners_
+    mesh::DisjointSets sets_;                     ///< over slots of corners_
     std::vector<std::uint32_t> begin_, corners_;  ///< 4 · triangle + k by special point, ascending
     std::vector<Side> sides_;
     std::vector<AboutEdge> about_;
@@ -179,15 +183,18 @@ std::size_t separate_pairs(const std::vector<Pair>& pairs, const Surface& surfac
 }
 
 /// Facets with constructed corners whose rounded normal no longer agrees with their plane.
-std::size_t count_inverted(const Surface& surface, const Soup& soup, const PointTable& points, const mesh::Mesh& mesh) {
+std::size_t count_inverted(const Surface& surface, const Soup& soup, const PointTable& points,
+                           const mesh::Mesh& mesh) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
         const mesh::Triangle& ids = surface.triangles[i];
         if (points.is_vertex(ids[0]) && points.is_vertex(ids[1]) && points.is_vertex(ids[2])) continue;
         const exact::Plane plane = surface.plane(soup, i);
         const mesh::Triangle& t = mesh.triangles[i];
-        const Vec3 normal = cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
-        const Vec3 expected{static_cast<double>(plane.a()), static_cast<double>(plane.b()), static_cast<double>(plane.c())};
+        const Vec3 normal =
+            cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+        const Vec3 expected{static_cast<double>(plane.a()), static_cast<double>(plane.b()),
+                            static_cast<double>(plane.c())};
         count += !(dot(normal, expected) > 0);
     }
     return count;
@@ -215,7 +222,8 @@ Assembled assemble(const Surface& surface, const Soup& soup, const PointTable& p
         result.largest_rounding = std::max(result.largest_rounding, moved);
     }
     result.mesh.sources.reserve(surface.triangles.size());
-    for (const Surface::Facet& facet : surface.facets) result.mesh.sources.push_back(soup.source(facet.soup_facet));
+    for (const Surface::Facet& facet : surface.facets)
+        result.mesh.sources.push_back(soup.source(facet.soup_facet));
     result.inverted_facets = count_inverted(surface, soup, points, result.mesh);
     result.split_edges = separate_pairs(splitter.pairs, surface, result.mesh);
     return result;

@@ -22,7 +22,9 @@ struct NearCorner {
 
 /// The first of the three that is not zero: value at v, change towards a, change towards b.
 Sign first_sign(int128 at_v, int128 towards_a, int128 towards_b) {
-    return at_v != 0 ? exact::sign_of(at_v) : towards_a != 0 ? exact::sign_of(towards_a) : exact::sign_of(towards_b);
+    return at_v != 0        ? exact::sign_of(at_v)
+           : towards_a != 0 ? exact::sign_of(towards_a)
+                            : exact::sign_of(towards_b);
 }
 
 /// Which way p, q and the point turn, seen from the far end of `axis`.
@@ -37,23 +39,32 @@ Sign turn(int axis, Point p, Point q, const NearCorner& near) {
 
 Sign side(const Plane& plane, const NearCorner& near) {
     const auto towards = [&](Point p) {
-        return wide(plane.a()) * (p.x - near.v.x) + wide(plane.b()) * (p.y - near.v.y) + wide(plane.c()) * (p.z - near.v.z);
+        return wide(plane.a()) * (p.x - near.v.x) + wide(plane.b()) * (p.y - near.v.y) +
+               wide(plane.c()) * (p.z - near.v.z);
     };
     return first_sign(plane.value_at(near.v), towards(near.a), towards(near.b));
 }
 
 class Classifier {
   public:
-    Classifier(const Complex& complex, const PointTable& points, const FacetTree& tree, const Patches& patches,
-               const Program& program)
-        : complex_(complex), points_(points), tree_(tree), patches_(patches), program_(program), indicator_(program) {}
+    Classifier(const Complex& complex, const PointTable& points, const FacetTree& tree,
+               const Patches& patches, const Program& program)
+        : complex_(complex),
+          points_(points),
+          tree_(tree),
+          patches_(patches),
+          program_(program),
+          indicator_(program) {}
 
     Result<Classification> run(const Context& context) {
         if (indicator_.value())
-            return Error{ErrorCode::bad_input, "the result is unbounded: the expression holds outside of all operands", {}};
+            return Error{ErrorCode::bad_input,
+                         "the result is unbounded: the expression holds outside of all operands",
+                         {}};
         build_regions();
         std::uint32_t operands = program_.operands();
-        for (TransitionId id = 0; id < complex_.soup->first_triangle.size() - 1; ++id) operands = std::max(operands, id + 1);
+        for (TransitionId id = 0; id < complex_.soup->first_triangle.size() - 1; ++id)
+            operands = std::max(operands, id + 1);
         winding_.assign(operands, 0);
         fingerprint_of_.assign(regions_, 0);
         inside_.assign(regions_, unvisited);
@@ -86,7 +97,8 @@ class Classifier {
         // Per region, the sides of patches that look at it.
         side_begin_.assign(regions_ + 1, 0);
         for (const std::uint32_t region : region_) ++side_begin_[region + 1];
-        for (std::uint32_t region = 0; region < regions_; ++region) side_begin_[region + 1] += side_begin_[region];
+        for (std::uint32_t region = 0; region < regions_; ++region)
+            side_begin_[region + 1] += side_begin_[region];
         sides_.resize(region_.size());
         std::vector<std::uint32_t> next(side_begin_.begin(), side_begin_.end() - 1);
         for (PatchSide s = 0; s < region_.size(); ++s) sides_[next[region_[s]]++] = s;
@@ -98,7 +110,8 @@ class Classifier {
             if (patch == no_index) continue;
             transition_[patch] = complex_.transition(triangle);
             // Whole facets are numbered before pieces, so a patch that has one starts from it.
-            if (seed_[patch] == no_index && (!complex_.is_piece(triangle) || lies_at_corner(triangle))) seed_[patch] = triangle;
+            if (seed_[patch] == no_index && (!complex_.is_piece(triangle) || lies_at_corner(triangle)))
+                seed_[patch] = triangle;
         }
     }
 
@@ -110,7 +123,8 @@ class Classifier {
         const mesh::Triangle& facet = complex_.soup->facets[complex_.facet(triangle)];
         for (int k = 0; k < 3; ++k)
             for (int corner = 0; corner < 3; ++corner)
-                if (piece[k] == facet[corner] && is_on_edge(piece[(k + 1) % 3], facet[corner], facet[(corner + 1) % 3]))
+                if (piece[k] == facet[corner] &&
+                    is_on_edge(piece[(k + 1) % 3], facet[corner], facet[(corner + 1) % 3]))
                     return corner;
         return -1;
     }
@@ -179,7 +193,8 @@ void Classifier::change(std::span<const Delta> deltas, int sign) {
     for (const Delta& delta : deltas) {
         const std::int32_t before = winding_[delta.operand], after = before + sign * delta.turns;
         winding_[delta.operand] = after;
-        fingerprint_ += weight_of(delta.operand) * static_cast<std::uint64_t>(static_cast<std::int64_t>(after) - before);
+        fingerprint_ +=
+            weight_of(delta.operand) * static_cast<std::uint64_t>(static_cast<std::int64_t>(after) - before);
         if ((before > 0) != (after > 0)) indicator_.set(delta.operand, after > 0);
     }
 }
@@ -210,7 +225,8 @@ void Classifier::add_ray(std::uint32_t seed) {
     const std::uint32_t own = complex_.facet(seed);
     const int corner = complex_.is_piece(seed) ? corner_of_piece(seed) : 0;
     const mesh::Triangle& facet = soup.facets[own];
-    const NearCorner near{soup.points[facet[corner]], soup.points[facet[(corner + 1) % 3]], soup.points[facet[(corner + 2) % 3]]};
+    const NearCorner near{soup.points[facet[corner]], soup.points[facet[(corner + 1) % 3]],
+                          soup.points[facet[(corner + 2) % 3]]};
     const Plane own_plane = Plane::through(near.v, near.a, near.b);
     const int axis = own_plane.dominant_axis(), outward = own_plane.normal(axis) > 0 ? 1 : -1;
     tree_.for_each_on_ray(near.v, axis, outward, [&](std::uint32_t other) {
@@ -251,7 +267,8 @@ Status Classifier::walk(std::uint32_t start) {
         if (step.next == side_begin_[step.region + 1]) {
             const PatchSide through = step.through;
             path.pop_back();
-            if (through != no_index) change(complex_.transitions.of(transition_[through / 2]), through % 2 ? 1 : -1);
+            if (through != no_index)
+                change(complex_.transitions.of(transition_[through / 2]), through % 2 ? 1 : -1);
             continue;
         }
         const PatchSide s = sides_[step.next++];
@@ -261,7 +278,8 @@ Status Classifier::walk(std::uint32_t start) {
         if (inside_[other] != unvisited) {
             std::uint64_t expected = fingerprint_;
             for (const Delta& delta : deltas)
-                expected += weight_of(delta.operand) * static_cast<std::uint64_t>(static_cast<std::int64_t>(sign * delta.turns));
+                expected += weight_of(delta.operand) *
+                            static_cast<std::uint64_t>(static_cast<std::int64_t>(sign * delta.turns));
             if (expected != fingerprint_of_[other])
                 return Error{ErrorCode::internal, "winding numbers contradict each other", {}};
             continue;

@@ -101,7 +101,8 @@ bool edge_separates(const Facet& facet, Sign up, const Facet& other, int axis) {
     for (int k = 0; k < 3; ++k) {
         bool outside = true;
         for (int corner = 0; corner < 3 && outside; ++corner)
-            outside = exact::orient2d(axis, facet.point[k], facet.point[(k + 1) % 3], other.point[corner]) != up;
+            outside =
+                exact::orient2d(axis, facet.point[k], facet.point[(k + 1) % 3], other.point[corner]) != up;
         if (outside) return true;
     }
     return false;
@@ -113,8 +114,8 @@ void add_touches(const Facet& facet, const Facet& other, const Plane& plane, Fou
             found.touches.push_back({other.id, facet.id, facet.corner[k]});
 }
 
-void meet_coplanar(const Facet& first, const Plane& first_plane, const Facet& second, const Plane& second_plane,
-                   Found& found) {
+void meet_coplanar(const Facet& first, const Plane& first_plane, const Facet& second,
+                   const Plane& second_plane, Found& found) {
     const int axis = first_plane.dominant_axis();
     const bool apart = edge_separates(first, exact::sign_of(first_plane.normal(axis)), second, axis) ||
                        edge_separates(second, exact::sign_of(second_plane.normal(axis)), first, axis);
@@ -180,12 +181,14 @@ void name_points(const Found& found, const Soup& soup, PointTable& points, Conta
         return corner[0] == point || corner[1] == point || corner[2] == point;
     };
     const auto add = [&](std::uint32_t facet, std::uint32_t other, PointId from, PointId to) {
-        if (!is_corner(facet, from) || !is_corner(facet, to)) contacts.cuts.push_back({facet, other, from, to});
+        if (!is_corner(facet, from) || !is_corner(facet, to))
+            contacts.cuts.push_back({facet, other, from, to});
     };
     for (const Crossing& crossing : found.crossings) {
         PointId ends[2] = {no_index, no_index};
         for (std::uint32_t i = 0; i < crossing.count; ++i) {
-            const PointId id = crossing.ends[i] == edge_point ? points.add(found.edge_points[next++]) : crossing.ends[i];
+            const PointId id =
+                crossing.ends[i] == edge_point ? points.add(found.edge_points[next++]) : crossing.ends[i];
             if (ends[0] == no_index || ends[0] == id)
                 ends[0] = id;
             else if (ends[1] == no_index || ends[1] == id)

@@ -42,7 +42,8 @@ void note_input(const Soup& soup, Report& report) {
     report.moved_vertices = soup.moved_vertices;
     report.largest_displacement = soup.largest_displacement;
     if (soup.flat_facets > 0)
-        report.warnings.push_back(std::to_string(soup.flat_facets) + " facets have no area on the lattice and were dropped");
+        report.warnings.push_back(std::to_string(soup.flat_facets) +
+                                  " facets have no area on the lattice and were dropped");
 }
 
 void note_output(const Assembled& assembled, Report& report) {
@@ -57,8 +58,8 @@ void note_output(const Assembled& assembled, Report& report) {
 
 }  // namespace
 
-Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Program& program, const Options& options,
-                           const Context& context) {
+Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Program& program,
+                           const Options& options, const Context& context) {
     Evaluated result;
     Report& report = result.report;
     Phases phases(context, report);
@@ -98,7 +99,8 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     phases.begin("assemble", 0.85);
     Surface surface = select(complex, *patches, *classification);
     if (options.simplify == Simplify::coplanar) surface = merge_coplanar(surface, *soup, points, context);
-    Assembled assembled = assemble(surface, *soup, points, special_points(surface, *patches, points.size()), context);
+    Assembled assembled =
+        assemble(surface, *soup, points, special_points(surface, *patches, points.size()), context);
     phases.end();
     note_output(assembled, report);
     report.exact_fallbacks = exact::predicate_counts().exact() - exact_before;
@@ -108,8 +110,8 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
 
 namespace {
 
-Result<Evaluated> evaluate_all(std::span<const mesh::Mesh> operands, const Program& program, const Options& options,
-                               const Context& context) {
+Result<Evaluated> evaluate_all(std::span<const mesh::Mesh> operands, const Program& program,
+                               const Options& options, const Context& context) {
     std::vector<const mesh::Mesh*> pointers;
     for (const mesh::Mesh& operand : operands) pointers.push_back(&operand);
     return evaluate(pointers, program, options, context);
@@ -117,24 +119,30 @@ Result<Evaluated> evaluate_all(std::span<const mesh::Mesh> operands, const Progr
 
 }  // namespace
 
-Result<Evaluated> unite(std::span<const mesh::Mesh> operands, const Options& options, const Context& context) {
-    return evaluate_all(operands, Program::union_of(static_cast<std::uint32_t>(operands.size())), options, context);
+Result<Evaluated> unite(std::span<const mesh::Mesh> operands, const Options& options,
+                        const Context& context) {
+    return evaluate_all(operands, Program::union_of(static_cast<std::uint32_t>(operands.size())), options,
+                        context);
 }
 
-Result<Evaluated> intersect(std::span<const mesh::Mesh> operands, const Options& options, const Context& context) {
+Result<Evaluated> intersect(std::span<const mesh::Mesh> operands, const Options& options,
+                            const Context& context) {
     OCTAVO_CHECK(!operands.empty(), "the intersection of no operands is all of space");
-    return evaluate_all(operands, Program::intersection(static_cast<std::uint32_t>(operands.size())), options, context);
+    return evaluate_all(operands, Program::intersection(static_cast<std::uint32_t>(operands.size())), options,
+                        context);
 }
 
-Result<Evaluated> subtract(std::span<const mesh::Mesh> operands, const Options& options, const Context& context) {
+Result<Evaluated> subtract(std::span<const mesh::Mesh> operands, const Options& options,
+                           const Context& context) {
     OCTAVO_CHECK(!operands.empty(), "a difference needs a first operand");
-    return evaluate_all(operands, Program::difference(static_cast<std::uint32_t>(operands.size())), options, context);
+    return evaluate_all(operands, Program::difference(static_cast<std::uint32_t>(operands.size())), options,
+                        context);
 }
 
 Result<Evaluated> symmetric_difference(std::span<const mesh::Mesh> operands, const Options& options,
                                        const Context& context) {
-    return evaluate_all(operands, Program::symmetric_difference(static_cast<std::uint32_t>(operands.size())), options,
-                        context);
+    return evaluate_all(operands, Program::symmetric_difference(static_cast<std::uint32_t>(operands.size())),
+                        options, context);
 }
 
 }  // namespace octavo::boolean

@@ -47,13 +47,13 @@ struct Report {
     double largest_displacement = 0;    ///< by snapping, in world units
     std::size_t pairs_tested = 0;       ///< facet against facet
     std::size_t cut_facets = 0;
-    std::size_t pieces = 0;             ///< of the cut facets
+    std::size_t pieces = 0;  ///< of the cut facets
     std::size_t constructed_points = 0;
     std::size_t patches = 0;
-    std::size_t components = 0;         ///< each located by one exact ray
-    std::size_t exact_fallbacks = 0;    ///< predicates that the floating-point filter left undecided
-    double largest_rounding = 0;        ///< of an exact point on export, in world units
-    std::size_t inverted_facets = 0;    ///< turned over or made flat by rounding on export
+    std::size_t components = 0;       ///< each located by one exact ray
+    std::size_t exact_fallbacks = 0;  ///< predicates that the floating-point filter left undecided
+    double largest_rounding = 0;      ///< of an exact point on export, in world units
+    std::size_t inverted_facets = 0;  ///< turned over or made flat by rounding on export
     std::size_t duplicated_vertices = 0;
     bool closed = true;
     bool manifold = true;
@@ -78,7 +78,8 @@ struct Evaluated {
 Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Program& program,
                            const Options& options = {}, const Context& context = {});
 
-Result<Evaluated> unite(std::span<const mesh::Mesh> operands, const Options& options = {}, const Context& context = {});
+Result<Evaluated> unite(std::span<const mesh::Mesh> operands, const Options& options = {},
+                        const Context& context = {});
 Result<Evaluated> intersect(std::span<const mesh::Mesh> operands, const Options& options = {},
                             const Context& context = {});
 /// The first operand without all others.

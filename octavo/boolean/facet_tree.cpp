@@ -55,9 +55,11 @@ void sort_by_key(std::vector<Keyed>& keyed) {
         keyed.swap(other);
     }
     for (std::size_t i = 0, end; i < keyed.size(); i = end) {
-        for (end = i + 1; end < keyed.size() && keyed[end].key >> first_bit == keyed[i].key >> first_bit;) ++end;
+        for (end = i + 1; end < keyed.size() && keyed[end].key >> first_bit == keyed[i].key >> first_bit;)
+            ++end;
         if (end - i > FacetTree::width)
-            std::stable_sort(keyed.begin() + static_cast<std::ptrdiff_t>(i), keyed.begin() + static_cast<std::ptrdiff_t>(end),
+            std::stable_sort(keyed.begin() + static_cast<std::ptrdiff_t>(i),
+                             keyed.begin() + static_cast<std::ptrdiff_t>(end),
                              [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
     }
 }
@@ -81,7 +83,8 @@ FacetTree::FacetTree(const Soup& soup, const Context&) {
         std::uint64_t key = 0;
         for (int axis = 0; axis < 3; ++axis) {
             // 21 of the 27 bits of low + high.
-            const std::uint64_t centre = static_cast<std::uint64_t>(box.low[axis]) + static_cast<std::uint64_t>(box.high[axis]);
+            const std::uint64_t centre =
+                static_cast<std::uint64_t>(box.low[axis]) + static_cast<std::uint64_t>(box.high[axis]);
             key |= spread(centre >> 6) << axis;
         }
         keyed[facet] = {key, facet};
@@ -125,8 +128,8 @@ unsigned FacetTree::meeting(const Node& node, const Node& other, int lane) {
         const __m256i high = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.high[axis]));
         const __m256i other_low = _mm256_set1_epi32(other.low[axis][lane]);
         const __m256i other_high = _mm256_set1_epi32(other.high[axis][lane]);
-        apart = _mm256_or_si256(apart, _mm256_or_si256(_mm256_cmpgt_epi32(low, other_high),
-                                                       _mm256_cmpgt_epi32(other_low, high)));
+        apart = _mm256_or_si256(
+            apart, _mm256_or_si256(_mm256_cmpgt_epi32(low, other_high), _mm256_cmpgt_epi32(other_low, high)));
     }
     return ~static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(apart))) & 0xffu;
 #else
@@ -134,7 +137,8 @@ unsigned FacetTree::meeting(const Node& node, const Node& other, int lane) {
     for (int k = 0; k < width; ++k) {
         bool both = true;
         for (int axis = 0; axis < 3; ++axis)
-            both = both && node.low[axis][k] <= other.high[axis][lane] && other.low[axis][lane] <= node.high[axis][k];
+            both = both && node.low[axis][k] <= other.high[axis][lane] &&
+                   other.low[axis][lane] <= node.high[axis][k];
         meets |= static_cast<unsigned>(both) << k;
     }
     return meets;
@@ -149,7 +153,8 @@ std::vector<FacetTree::Task> FacetTree::pair_tasks(std::size_t count) const {
         std::vector<Task> finer;
         for (const Task& task : tasks) {
             for (std::uint32_t lane = 0; lane < width; ++lane) {
-                unsigned hits = meeting(levels_[task.level][task.second], levels_[task.level][task.first], static_cast<int>(lane));
+                unsigned hits = meeting(levels_[task.level][task.second], levels_[task.level][task.first],
+                                        static_cast<int>(lane));
                 if (task.first == task.second) hits &= ~0u << lane;
                 for (; hits; hits &= hits - 1)
                     finer.push_back({task.level - 1, task.first * width + lane,

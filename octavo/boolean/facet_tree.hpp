@@ -70,7 +70,8 @@ class FacetTree {
             if (first == second) hits &= level == 0 ? ~1u << lane : ~0u << lane;
             for (; hits; hits &= hits - 1) {
                 const auto hit = static_cast<std::uint32_t>(__builtin_ctz(hits));
-                const std::uint32_t a = first * width + static_cast<std::uint32_t>(lane), b = second * width + hit;
+                const std::uint32_t a = first * width + static_cast<std::uint32_t>(lane),
+                                    b = second * width + hit;
                 if (level == 0)
                     visit(a, b);
                 else
@@ -80,13 +81,15 @@ class FacetTree {
     }
 
     template <class Visit>
-    void ray(std::size_t level, std::uint32_t number, exact::Point point, int axis, int sign, const Visit& visit) const {
+    void ray(std::size_t level, std::uint32_t number, exact::Point point, int axis, int sign,
+             const Visit& visit) const {
         const Node& node = levels_[level][number];
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
         for (std::uint32_t lane = 0; lane < width; ++lane) {
-            const bool meets = node.low[i][lane] <= point[i] && point[i] <= node.high[i][lane] &&
-                               node.low[j][lane] <= point[j] && point[j] <= node.high[j][lane] &&
-                               (sign > 0 ? node.high[axis][lane] >= point[axis] : node.low[axis][lane] <= point[axis]);
+            const bool meets =
+                node.low[i][lane] <= point[i] && point[i] <= node.high[i][lane] &&
+                node.low[j][lane] <= point[j] && point[j] <= node.high[j][lane] &&
+                (sign > 0 ? node.high[axis][lane] >= point[axis] : node.low[axis][lane] <= point[axis]);
             if (!meets) continue;
             if (level == 0)
                 visit(order_[number * width + lane]);

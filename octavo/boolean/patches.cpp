@@ -56,7 +56,8 @@ class PatchSearch {
         if (context.cancelled()) return Context::cancelled_error();
         for (PointId point = 0; point < points_.size(); ++point) {
             const std::uint32_t begin = table.begin[point], end = table.begin[point + 1];
-            if (begin != end && !patches_.is_plain[point]) visit_edges(point, {table.corners.data() + begin, end - begin});
+            if (begin != end && !patches_.is_plain[point])
+                visit_edges(point, {table.corners.data() + begin, end - begin});
         }
         if (!open_.empty()) return open_error();
         number_patches();
@@ -90,7 +91,8 @@ class PatchSearch {
             std::sort(fan_.begin(), fan_.end());
             std::size_t at = 0;
             for (std::size_t step = 1; step <= count; ++step) {
-                const auto next = std::lower_bound(fan_.begin(), fan_.end(), std::pair<PointId, PointId>{fan_[at].second, 0});
+                const auto next = std::lower_bound(fan_.begin(), fan_.end(),
+                                                   std::pair<PointId, PointId>{fan_[at].second, 0});
                 if (next == fan_.end() || next->first != fan_[at].second) return false;
                 if (next + 1 != fan_.end() && (next + 1)->first == next->first) return false;
                 at = static_cast<std::size_t>(next - fan_.begin());
@@ -193,7 +195,8 @@ class PatchSearch {
             turned_.push_back(turned(plane_of(entry / 2), entry % 2 != 0, entry));
         }
         sort_about_edge(points_, junction.low, junction.high, turned_);
-        for (std::size_t k = 0; k < turned_.size(); ++k) patches_.around[junction.begin + k] = turned_[k].entry;
+        for (std::size_t k = 0; k < turned_.size(); ++k)
+            patches_.around[junction.begin + k] = turned_[k].entry;
         for (std::size_t k = 0; k < turned_.size(); ++k) {
             const std::uint32_t entry = turned_[k].entry, next = turned_[(k + 1) % turned_.size()].entry;
             // A triangle that runs upward has its front after it, one that runs downward its back.

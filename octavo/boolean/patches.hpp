@@ -28,8 +28,8 @@ namespace octavo::boolean {
 using PatchSide = std::uint32_t;
 
 struct Junction {
-    PointId low, high;          ///< low < high
-    std::uint32_t begin, end;   ///< of its triangles in `Patches::around`
+    PointId low, high;         ///< low < high
+    std::uint32_t begin, end;  ///< of its triangles in `Patches::around`
 };
 
 struct Patches {

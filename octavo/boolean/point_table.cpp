@@ -68,7 +68,8 @@ PointId PointTable::add_to(const P& point, std::vector<P>& kind, bool is_triple)
     }
     const auto number = static_cast<std::uint32_t>(constructed_.size());
     slots_[slot] = number;
-    constructed_.push_back({cell.low, static_cast<std::uint32_t>(kind.size()) & 0x7fffffffu, is_triple ? 1u : 0u});
+    constructed_.push_back(
+        {cell.low, static_cast<std::uint32_t>(kind.size()) & 0x7fffffffu, is_triple ? 1u : 0u});
     kind.push_back(point);
     if (2 * constructed_.size() > slots_.size()) grow();
     return vertices + number;
@@ -93,7 +94,8 @@ exact::Sign PointTable::compare_coordinate(int axis, PointId first, PointId seco
 }
 
 exact::Sign PointTable::orient2d(int axis, PointId p, PointId q, PointId r) const {
-    if (is_vertex(p) && is_vertex(q) && is_vertex(r)) return exact::orient2d(axis, vertex(p), vertex(q), vertex(r));
+    if (is_vertex(p) && is_vertex(q) && is_vertex(r))
+        return exact::orient2d(axis, vertex(p), vertex(q), vertex(r));
     // The filter of exact/orient_in_plane.hpp with R = 2^26: e = 12u R < 2^-23.
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
     const Vec3 a = approximation(p), b = approximation(q), c = approximation(r);

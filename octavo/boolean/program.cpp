@@ -57,9 +57,12 @@ Indicator::Indicator(const Program& program)
 
 bool Indicator::evaluate(Program::NodeId node) const {
     switch (program_.nodes_[node].gate) {
-        case Gate::any: return true_inputs_[node] > 0;
-        case Gate::all: return true_inputs_[node] == program_.nodes_[node].arity;
-        case Gate::odd: return true_inputs_[node] % 2 == 1;
+        case Gate::any:
+            return true_inputs_[node] > 0;
+        case Gate::all:
+            return true_inputs_[node] == program_.nodes_[node].arity;
+        case Gate::odd:
+            return true_inputs_[node] % 2 == 1;
     }
     return false;
 }

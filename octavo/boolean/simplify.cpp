@@ -15,7 +15,9 @@ using exact::wide;
 
 /// Whether two planes that share a line are one plane, fronts on the same side.
 bool same_plane(const Plane& a, const Plane& b) {
-    const auto minor = [&](int i, int j) { return wide(a.normal(i)) * b.normal(j) - wide(a.normal(j)) * b.normal(i); };
+    const auto minor = [&](int i, int j) {
+        return wide(a.normal(i)) * b.normal(j) - wide(a.normal(j)) * b.normal(i);
+    };
     if (minor(1, 2) != 0 || minor(2, 0) != 0 || minor(0, 1) != 0) return false;
     const int axis = a.dominant_axis();
     return (a.normal(axis) > 0) == (b.normal(axis) > 0);
@@ -51,7 +53,8 @@ class CoplanarMerge {
         : surface_(surface), soup_(soup), points_(points), sets_(0) {}
 
     Surface run(const Context& context) {
-        while (first_piece_ < surface_.triangles.size() && !surface_.facets[first_piece_].is_piece) ++first_piece_;
+        while (first_piece_ < surface_.triangles.size() && !surface_.facets[first_piece_].is_piece)
+            ++first_piece_;
         if (first_piece_ == surface_.triangles.size()) return surface_;
         number_points();
         find_sides();
@@ -84,17 +87,21 @@ class CoplanarMerge {
             const mesh::Triangle& t = surface_.triangles[i];
             for (int k = 0; k < 3; ++k) {
                 const PointId from = t[k], to = t[(k + 1) % 3];
-                if (i < first_piece_ && (number_of_[from] == no_index || number_of_[to] == no_index)) continue;
+                if (i < first_piece_ && (number_of_[from] == no_index || number_of_[to] == no_index))
+                    continue;
                 sides_.push_back({std::min(from, to), std::max(from, to), i, from < to});
             }
         }
         std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-            return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+            return a.low != b.low     ? a.low < b.low
+                   : a.high != b.high ? a.high < b.high
+                                      : a.triangle < b.triangle;
         });
     }
 
     bool is_inner(std::span<const Side> edge) const {
-        if (edge.size() != 2 || edge[0].upward == edge[1].upward || edge[0].triangle < first_piece_) return false;
+        if (edge.size() != 2 || edge[0].upward == edge[1].upward || edge[0].triangle < first_piece_)
+            return false;
         const Surface::Facet &a = surface_.facets[edge[0].triangle], &b = surface_.facets[edge[1].triangle];
         if (a.soup_facet == b.soup_facet) return true;
         return same_plane(surface_.plane(soup_, edge[0].triangle), surface_.plane(soup_, edge[1].triangle));
@@ -104,7 +111,8 @@ class CoplanarMerge {
         sets_ = mesh::DisjointSets(pieces());
         std::size_t borders = 0;
         for (std::size_t i = 0, end; i < sides_.size(); i = end) {
-            for (end = i + 1; end < sides_.size() && sides_[end].low == sides_[i].low && sides_[end].high == sides_[i].high;)
+            for (end = i + 1; end < sides_.size() && sides_[end].low == sides_[i].low &&
+                              sides_[end].high == sides_[i].high;)
                 ++end;
             const std::span<const Side> edge{sides_.data() + i, end - i};
             if (is_inner(edge)) {
@@ -131,14 +139,15 @@ class CoplanarMerge {
                 needless_[number] = 1;
             } else if (borders.neighbour[1] != no_index) {
                 const int axis = surface_.plane(soup_, borders.triangle).dominant_axis();
-                needless_[number] = points_.is_between(axis, borders.neighbour[0], point, borders.neighbour[1]);
+                needless_[number] =
+                    points_.is_between(axis, borders.neighbour[0], point, borders.neighbour[1]);
             }
         }
     }
 
     struct Region {
-        std::vector<std::uint32_t> triangles;                  ///< of the surface
-        std::vector<std::pair<PointId, PointId>> border;       ///< directed, needless points skipped
+        std::vector<std::uint32_t> triangles;             ///< of the surface
+        std::vector<std::pair<PointId, PointId>> border;  ///< directed, needless points skipped
     };
 
     std::vector<Region> collect_regions() {
@@ -159,7 +168,8 @@ class CoplanarMerge {
             const PointId start = from;
             while (needless_[number_of_[to]]) {
                 const Borders& borders = borders_[number_of_[to]];
-                const PointId next = borders.neighbour[0] == from ? borders.neighbour[1] : borders.neighbour[0];
+                const PointId next =
+                    borders.neighbour[0] == from ? borders.neighbour[1] : borders.neighbour[0];
                 from = to, to = next;
             }
             regions[region_of[side.triangle - first_piece_]].border.push_back({start, to});
@@ -170,7 +180,8 @@ class CoplanarMerge {
     /// The region's triangles, from its border alone.
     std::vector<mesh::Triangle> triangulate(Region& region, Subdivision& subdivision) const {
         std::vector<std::uint32_t> facets;
-        for (const std::uint32_t triangle : region.triangles) facets.push_back(surface_.facets[triangle].soup_facet);
+        for (const std::uint32_t triangle : region.triangles)
+            facets.push_back(surface_.facets[triangle].soup_facet);
         std::sort(facets.begin(), facets.end());
         facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
         const Plane plane = surface_.plane(soup_, region.triangles[0]);
@@ -180,8 +191,10 @@ class CoplanarMerge {
         constexpr std::uint32_t border = 0, slit = 1;
         std::sort(region.border.begin(), region.border.end());
         for (const auto& [from, to] : region.border) {
-            const bool both = std::binary_search(region.border.begin(), region.border.end(), std::pair{to, from});
-            subdivision.add_segment(subdivision.add_point(from), subdivision.add_point(to), 0, both ? slit : border);
+            const bool both =
+                std::binary_search(region.border.begin(), region.border.end(), std::pair{to, from});
+            subdivision.add_segment(subdivision.add_point(from), subdivision.add_point(to), 0,
+                                    both ? slit : border);
         }
         subdivision.refine();
 
@@ -231,8 +244,10 @@ class CoplanarMerge {
         for (std::size_t i = 0; i < regions.size(); ++i) {
             Surface::Facet facet = surface_.facets[regions[i].triangles[0]];
             for (const std::uint32_t triangle : regions[i].triangles)
-                if (surface_.facets[triangle].soup_facet < facet.soup_facet) facet = surface_.facets[triangle];
-            if (regions[i].triangles.size() == 1) triangles[i] = {surface_.triangles[regions[i].triangles[0]]};
+                if (surface_.facets[triangle].soup_facet < facet.soup_facet)
+                    facet = surface_.facets[triangle];
+            if (regions[i].triangles.size() == 1)
+                triangles[i] = {surface_.triangles[regions[i].triangles[0]]};
             for (const mesh::Triangle& triangle : triangles[i]) {
                 result.triangles.push_back(triangle);
                 result.facets.push_back(facet);
@@ -256,7 +271,8 @@ class CoplanarMerge {
 
 }  // namespace
 
-Surface merge_coplanar(const Surface& surface, const Soup& soup, const PointTable& points, const Context& context) {
+Surface merge_coplanar(const Surface& surface, const Soup& soup, const PointTable& points,
+                       const Context& context) {
     return CoplanarMerge(surface, soup, points).run(context);
 }
 

@@ -15,6 +15,7 @@
 
 namespace octavo::boolean {
 
-Surface merge_coplanar(const Surface& surface, const Soup& soup, const PointTable& points, const Context& context);
+Surface merge_coplanar(const Surface& surface, const Soup& soup, const PointTable& points,
+                       const Context& context);
 
 }  // namespace octavo::boolean

@@ -19,8 +19,9 @@ std::uint64_t PointIndex::hash(exact::Point point) {
     // Multiplications spread the low bits upwards; the high half is what survives in the slot number.
     const std::uint64_t xy = static_cast<std::uint64_t>(static_cast<std::uint32_t>(point.x)) |
                              static_cast<std::uint64_t>(static_cast<std::uint32_t>(point.y)) << 32;
-    const std::uint64_t mixed = (xy * 0x9E3779B97F4A7C15ull) ^
-                                (static_cast<std::uint64_t>(static_cast<std::uint32_t>(point.z)) * 0xC2B2AE3D27D4EB4Full);
+    const std::uint64_t mixed =
+        (xy * 0x9E3779B97F4A7C15ull) ^
+        (static_cast<std::uint64_t>(static_cast<std::uint32_t>(point.z)) * 0xC2B2AE3D27D4EB4Full);
     return (mixed * 0x9E3779B97F4A7C15ull) >> 24;
 }
 
@@ -88,14 +89,16 @@ std::vector<std::uint32_t> add_vertices(const mesh::Mesh& operand, Soup& soup) {
     return point_of;
 }
 
-Status add_facets(const mesh::Mesh& mesh, std::uint32_t operand, std::span<const std::uint32_t> point_of, Soup& soup) {
+Status add_facets(const mesh::Mesh& mesh, std::uint32_t operand, std::span<const std::uint32_t> point_of,
+                  Soup& soup) {
     for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
         const mesh::Triangle& triangle = mesh.triangles[face];
         for (const mesh::VertexIndex corner : triangle)
             if (corner >= point_of.size()) {
-                Error error{ErrorCode::bad_input,
-                            "operand " + std::to_string(operand) + " has a facet with a corner that does not exist",
-                            {}};
+                Error error{
+                    ErrorCode::bad_input,
+                    "operand " + std::to_string(operand) + " has a facet with a corner that does not exist",
+                    {}};
                 error.place.faces = {static_cast<std::uint32_t>(face)};
                 return error;
             }
@@ -162,12 +165,15 @@ void merge_coincident(Soup& soup) {
         }
         std::sort(keys.begin(), keys.end());
         for (std::size_t i = 0, end; i < size; i = end) {
-            for (end = i + 1; end < size && keys[end].middle == keys[i].middle && keys[end].high == keys[i].high;) ++end;
+            for (end = i + 1;
+                 end < size && keys[end].middle == keys[i].middle && keys[end].high == keys[i].high;)
+                ++end;
             if (end == i + 1) continue;
             sum.clear();
             if (dropped.empty()) dropped.assign(count, 0);
             for (std::size_t k = i; k < end; ++k) {
-                sum.add(soup.transitions.of(soup.transition[keys[k].facet]), keys[k].odd == keys[i].odd ? 1 : -1);
+                sum.add(soup.transitions.of(soup.transition[keys[k].facet]),
+                        keys[k].odd == keys[i].odd ? 1 : -1);
                 dropped[keys[k].facet] = k > i;
             }
             soup.coincident_facets += end - i - 1;
@@ -205,7 +211,8 @@ Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, const Contex
     }
     // Corners are numbered three to a facet, with ids of 32 bits.
     if (triangles > (std::size_t{1} << 30) / 3 || vertices > (std::size_t{1} << 30))
-        return Error{ErrorCode::limit, "the operands have more than 357 million facets or 1 billion vertices", {}};
+        return Error{
+            ErrorCode::limit, "the operands have more than 357 million facets or 1 billion vertices", {}};
     soup.first_triangle.push_back(static_cast<std::uint32_t>(triangles));
     soup.transitions = TransitionTable(static_cast<std::uint32_t>(operands.size()));
     soup.index = PointIndex(vertices);

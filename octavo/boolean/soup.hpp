@@ -51,10 +51,10 @@ struct Soup {
     std::vector<std::uint32_t> first_triangle;  ///< per operand, and one past the last
     TransitionTable transitions;
 
-    double largest_displacement = 0;   ///< of a vertex by snapping, in world units
-    std::size_t moved_vertices = 0;    ///< not on the lattice before
-    std::size_t flat_facets = 0;       ///< dropped: no area on the lattice
-    std::size_t coincident_facets = 0; ///< merged into another facet
+    double largest_displacement = 0;    ///< of a vertex by snapping, in world units
+    std::size_t moved_vertices = 0;     ///< not on the lattice before
+    std::size_t flat_facets = 0;        ///< dropped: no area on the lattice
+    std::size_t coincident_facets = 0;  ///< merged into another facet
 
     mesh::Source source(std::uint32_t facet) const;
 };

@@ -11,7 +11,8 @@ namespace octavo::boolean {
 
 using exact::Sign;
 
-void Subdivision::begin(const exact::Plane& plane, const exact::Point (&corners)[3], const PointId (&ids)[3]) {
+void Subdivision::begin(const exact::Plane& plane, const exact::Point (&corners)[3],
+                        const PointId (&ids)[3]) {
     plane_ = plane;
     axis_ = plane.dominant_axis();
     reversed_ = plane.normal(axis_) < 0;
@@ -23,13 +24,18 @@ void Subdivision::begin(const exact::Plane& plane, const exact::Point (&corners)
     triangles_.push_back({{0, 1, 2}, {no_index, no_index, no_index}, {0, 0, 0}});
     for (int k = 0; k < 3; ++k) {
         const exact::Point corner = corners[k];
-        const Vertex vertex{static_cast<double>(corner[i_]), static_cast<double>(corner[j_]), ids[k], 0, corner,
+        const Vertex vertex{static_cast<double>(corner[i_]),
+                            static_cast<double>(corner[j_]),
+                            ids[k],
+                            0,
+                            corner,
                             Vertex::Kind::lattice};
         push(vertex);
     }
 }
 
-void Subdivision::begin_round(const exact::Plane& plane, const Soup& soup, std::span<const std::uint32_t> facets) {
+void Subdivision::begin_round(const exact::Plane& plane, const Soup& soup,
+                              std::span<const std::uint32_t> facets) {
     const int axis = plane.dominant_axis(), i = (axis + 1) % 3, j = (axis + 2) % 3;
     std::int32_t low[2] = {exact::universe_side, exact::universe_side}, high[2] = {0, 0};
     for (const std::uint32_t facet : facets)
@@ -71,9 +77,12 @@ Subdivision::VertexId Subdivision::push(const Vertex& vertex) {
 template <class Visit>
 decltype(auto) Subdivision::with(const Vertex& vertex, const Visit& visit) const {
     switch (vertex.kind) {
-        case Vertex::Kind::lattice: return visit(vertex.lattice);
-        case Vertex::Kind::crossing: return visit(new_points_[vertex.id - new_point]);
-        case Vertex::Kind::table: break;
+        case Vertex::Kind::lattice:
+            return visit(vertex.lattice);
+        case Vertex::Kind::crossing:
+            return visit(new_points_[vertex.id - new_point]);
+        case Vertex::Kind::table:
+            break;
     }
     return points_.with(vertex.id, visit);
 }
@@ -169,8 +178,10 @@ void Subdivision::split_triangle(TriangleId t0, VertexId p) {
     triangles_.push_back({{old.v[1], old.v[2], p}, {old.neighbour[1], t2, t0}, {old.owner[1], 0, 0}});
     triangles_.push_back({{old.v[2], old.v[0], p}, {old.neighbour[2], t0, t1}, {old.owner[2], 0, 0}});
     triangles_[t0] = {{old.v[0], old.v[1], p}, {old.neighbour[0], t1, t2}, {old.owner[0], 0, 0}};
-    if (old.neighbour[1] != no_index) triangles_[old.neighbour[1]].neighbour[back_index(old.neighbour[1], t0)] = t1;
-    if (old.neighbour[2] != no_index) triangles_[old.neighbour[2]].neighbour[back_index(old.neighbour[2], t0)] = t2;
+    if (old.neighbour[1] != no_index)
+        triangles_[old.neighbour[1]].neighbour[back_index(old.neighbour[1], t0)] = t1;
+    if (old.neighbour[2] != no_index)
+        triangles_[old.neighbour[2]].neighbour[back_index(old.neighbour[2], t0)] = t2;
     vertices_[p].triangle = t0;
     vertices_[old.v[0]].triangle = t0;
     vertices_[old.v[1]].triangle = t0;
@@ -181,8 +192,10 @@ void Subdivision::split_edge(TriangleId t, int k, VertexId p) {
     // t = (a, b, c) with the edge (a, b), u = (b, a, d) across it.
     const Triangle old = triangles_[t];
     const VertexId a = old.v[k], b = old.v[(k + 1) % 3], c = old.v[(k + 2) % 3];
-    const TriangleId u = old.neighbour[k], t_bc = old.neighbour[(k + 1) % 3], t_ca = old.neighbour[(k + 2) % 3];
-    const std::uint32_t own_ab = old.owner[k], own_bc = old.owner[(k + 1) % 3], own_ca = old.owner[(k + 2) % 3];
+    const TriangleId u = old.neighbour[k], t_bc = old.neighbour[(k + 1) % 3],
+                     t_ca = old.neighbour[(k + 2) % 3];
+    const std::uint32_t own_ab = old.owner[k], own_bc = old.owner[(k + 1) % 3],
+                        own_ca = old.owner[(k + 2) % 3];
     const auto t1 = static_cast<TriangleId>(triangles_.size());
     const TriangleId u1 = u == no_index ? no_index : t1 + 1;
     triangles_.push_back({{p, b, c}, {u, t_bc, t}, {own_ab, own_bc, 0}});
@@ -268,7 +281,8 @@ void Subdivision::add_segment(VertexId from, VertexId to, std::uint32_t line, st
 }
 
 /// Fixes the first piece of the segment and returns its end: the next vertex on the segment.
-Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, std::uint32_t line, std::uint32_t tag) {
+Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, std::uint32_t line,
+                                           std::uint32_t tag) {
     // The edge from `from` that runs along the segment, or the edge opposite to `from` that it leaves through.
     Edge along{no_index, 0}, through{no_index, 0};
     VertexId next = no_index;
@@ -317,12 +331,13 @@ Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, std::uint
 /// The vertex where a fixed edge meets line `line`.
 Subdivision::VertexId Subdivision::cross(Edge fixed, std::uint32_t line) {
     const Owner& owner = owners_[triangles_[fixed.triangle].owner[fixed.k] - 1];
-    const std::optional<exact::TriplePoint> point = exact::intersect(plane_, lines_[owner.line], lines_[line]);
+    const std::optional<exact::TriplePoint> point =
+        exact::intersect(plane_, lines_[owner.line], lines_[line]);
     OCTAVO_CHECK(point.has_value(), "two segments that cross have parallel planes");
     const auto number = static_cast<std::uint32_t>(new_points_.size());
     new_points_.push_back(*point);
-    const VertexId vertex = push({point->approximation(i_), point->approximation(j_), new_point + number, no_index,
-                                  exact::Point{}, Vertex::Kind::crossing});
+    const VertexId vertex = push({point->approximation(i_), point->approximation(j_), new_point + number,
+                                  no_index, exact::Point{}, Vertex::Kind::crossing});
     split_edge(fixed.triangle, fixed.k, vertex);
     return vertex;
 }
@@ -334,11 +349,13 @@ void Subdivision::force_edge(VertexId from, VertexId to) {
     Edge edge{no_index, 0};
     any_around(from, [&](TriangleId t, int k) {
         const VertexId right = triangles_[t].v[(k + 1) % 3], left = triangles_[t].v[(k + 2) % 3];
-        if (turn(from, to, right) == Sign::negative && turn(from, to, left) == Sign::positive) edge = {t, (k + 1) % 3};
+        if (turn(from, to, right) == Sign::negative && turn(from, to, left) == Sign::positive)
+            edge = {t, (k + 1) % 3};
         return edge.triangle != no_index;
     });
     for (;;) {
-        in_the_way_.push_back({triangles_[edge.triangle].v[edge.k], triangles_[edge.triangle].v[(edge.k + 1) % 3]});
+        in_the_way_.push_back(
+            {triangles_[edge.triangle].v[edge.k], triangles_[edge.triangle].v[(edge.k + 1) % 3]});
         const TriangleId t = triangles_[edge.triangle].neighbour[edge.k];
         const int m = back_index(t, edge.triangle);
         const VertexId apex = triangles_[t].v[(m + 2) % 3];
@@ -358,7 +375,8 @@ void Subdivision::force_edge(VertexId from, VertexId to) {
             continue;
         }
         flip(crossing.triangle, crossing.k);
-        const bool still = c != from && c != to && d != from && d != to && turn(from, to, c) != turn(from, to, d);
+        const bool still =
+            c != from && c != to && d != from && d != to && turn(from, to, c) != turn(from, to, d);
         if (still) in_the_way_.push_back({c, d});
     }
 }
@@ -379,7 +397,8 @@ void Subdivision::refine() {
     in_the_way_.clear();
     for (TriangleId t = 0; t < triangles_.size(); ++t)
         for (int k = 0; k < 3; ++k)
-            if (triangles_[t].neighbour[k] != no_index && triangles_[t].neighbour[k] > t && !triangles_[t].owner[k])
+            if (triangles_[t].neighbour[k] != no_index && triangles_[t].neighbour[k] > t &&
+                !triangles_[t].owner[k])
                 in_the_way_.push_back({triangles_[t].v[k], triangles_[t].v[(k + 1) % 3]});
     const std::size_t limit = 64 * in_the_way_.size() + 64;
     for (std::size_t at = 0; at < in_the_way_.size() && at < limit; ++at) {

@@ -89,15 +89,15 @@ class Subdivision {
 
   private:
     struct Vertex {
-        double x, y;               ///< seen along the dominant axis, from the front
+        double x, y;  ///< seen along the dominant axis, from the front
         std::uint32_t id;
-        TriangleId triangle;       ///< one that has it as a corner
-        exact::Point lattice;      ///< where id says so
+        TriangleId triangle;   ///< one that has it as a corner
+        exact::Point lattice;  ///< where id says so
         enum class Kind : std::uint8_t { lattice, table, crossing } kind;
     };
     struct Location {
         TriangleId triangle;
-        int edge;      ///< of the triangle, on which the point lies; -1: inside
+        int edge;  ///< of the triangle, on which the point lies; -1: inside
     };
     struct Edge {
         TriangleId triangle;
@@ -142,7 +142,7 @@ class Subdivision {
     std::vector<Triangle> triangles_;
     std::vector<Owner> owners_;
     std::vector<exact::TriplePoint> new_points_;
-    std::vector<std::uint32_t> vertex_of_;   ///< hash of point id to vertex
+    std::vector<std::uint32_t> vertex_of_;  ///< hash of point id to vertex
     std::vector<std::pair<VertexId, VertexId>> in_the_way_;
     TriangleId hint_ = 0;
     std::uint32_t walk_seed_ = 1;

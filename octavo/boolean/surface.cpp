@@ -22,7 +22,8 @@ Surface select(const Complex& complex, const Patches& patches, const Classificat
 
 std::vector<char> special_points(const Surface& surface, const Patches& patches, std::size_t points) {
     std::vector<char> special(points, 0);
-    for (std::size_t point = 0; point < patches.is_plain.size(); ++point) special[point] = !patches.is_plain[point];
+    for (std::size_t point = 0; point < patches.is_plain.size(); ++point)
+        special[point] = !patches.is_plain[point];
     for (std::size_t i = 0; i < surface.triangles.size(); ++i)
         if (surface.facets[i].is_piece)
             for (const PointId corner : surface.triangles[i]) special[corner] = 1;

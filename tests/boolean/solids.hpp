@@ -59,7 +59,8 @@ inline Convex from_triangles(const std::vector<Grid>& points, const std::vector<
     }
     body.sides.assign(sides.begin(), sides.end());
     for (const Grid& p : points)
-        body.mesh.vertices.push_back({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+        body.mesh.vertices.push_back(
+            {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
     body.mesh.triangles = triangles;
     return body;
 }
@@ -87,7 +88,8 @@ inline Convex tetrahedron(std::array<Grid, 4> p) {
 /// A triangle swept along `axis`.
 inline Convex prism(int axis, std::array<std::array<int, 2>, 3> triangle, int low, int high) {
     const auto& [a, b, c] = triangle;
-    if ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) < 0) std::swap(triangle[1], triangle[2]);
+    if ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) < 0)
+        std::swap(triangle[1], triangle[2]);
     std::vector<Grid> points;
     for (const int height : {low, high})
         for (const auto& p : triangle) {
@@ -97,12 +99,15 @@ inline Convex prism(int axis, std::array<std::array<int, 2>, 3> triangle, int lo
             point[static_cast<std::size_t>((axis + 2) % 3)] = p[1];
             points.push_back(point);
         }
-    return from_triangles(points, {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}});
+    return from_triangles(
+        points, {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}});
 }
 
 template <class Random>
 Convex random_convex(Random& random, int side) {
-    const auto number = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+    const auto number = [&](int low, int high) {
+        return std::uniform_int_distribution<int>(low, high)(random);
+    };
     const int kind = number(0, 2);
     if (kind == 0) {
         Grid low, high;
@@ -117,7 +122,8 @@ Convex random_convex(Random& random, int side) {
             std::array<Grid, 4> p;
             for (Grid& point : p)
                 for (int& coordinate : point) coordinate = number(0, side);
-            if (dot(cross(minus(p[1], p[0]), minus(p[2], p[0])), minus(p[3], p[0])) != 0) return tetrahedron(p);
+            if (dot(cross(minus(p[1], p[0]), minus(p[2], p[0])), minus(p[3], p[0])) != 0)
+                return tetrahedron(p);
         }
     }
     for (;;) {
@@ -156,7 +162,8 @@ inline double volume_of(std::vector<HalfSpace> sides) {
                 for (std::int64_t& part : x) part /= divisor;
                 bool inside = true;
                 for (const HalfSpace& side : sides)
-                    inside = inside && side.n[0] * x[0] + side.n[1] * x[1] + side.n[2] * x[2] <= side.d * x[3];
+                    inside =
+                        inside && side.n[0] * x[0] + side.n[1] * x[1] + side.n[2] * x[2] <= side.d * x[3];
                 if (inside) corners.insert(x);
             }
         }
@@ -166,16 +173,19 @@ inline double volume_of(std::vector<HalfSpace> sides) {
         for (const Corner& x : corners)
             if (side.n[0] * x[0] + side.n[1] * x[1] + side.n[2] * x[2] == side.d * x[3]) {
                 const double w = static_cast<double>(x[3]);
-                face.push_back({static_cast<double>(x[0]) / w, static_cast<double>(x[1]) / w, static_cast<double>(x[2]) / w});
+                face.push_back({static_cast<double>(x[0]) / w, static_cast<double>(x[1]) / w,
+                                static_cast<double>(x[2]) / w});
             }
         if (face.size() < 3) continue;
         Vec3 middle;
         for (const Vec3& p : face) middle = middle + (1.0 / static_cast<double>(face.size())) * p;
-        const Vec3 normal{static_cast<double>(side.n[0]), static_cast<double>(side.n[1]), static_cast<double>(side.n[2])};
+        const Vec3 normal{static_cast<double>(side.n[0]), static_cast<double>(side.n[1]),
+                          static_cast<double>(side.n[2])};
         const Vec3 first = face[0] - middle, second = octavo::cross(normal, first);
         std::sort(face.begin(), face.end(), [&](const Vec3& a, const Vec3& b) {
             const auto angle = [&](const Vec3& p) {
-                return std::atan2(octavo::dot(p - middle, second) / length(normal), octavo::dot(p - middle, first));
+                return std::atan2(octavo::dot(p - middle, second) / length(normal),
+                                  octavo::dot(p - middle, first));
             };
             return angle(a) < angle(b);
         });
@@ -188,7 +198,8 @@ inline double volume_of(std::vector<HalfSpace> sides) {
 inline double volume_of(const mesh::Mesh& mesh) {
     double volume = 0;
     for (const mesh::Triangle& t : mesh.triangles)
-        volume += octavo::dot(mesh.vertices[t[0]], octavo::cross(mesh.vertices[t[1]], mesh.vertices[t[2]])) / 6;
+        volume +=
+            octavo::dot(mesh.vertices[t[0]], octavo::cross(mesh.vertices[t[1]], mesh.vertices[t[2]])) / 6;
     return volume;
 }
 
@@ -202,7 +213,8 @@ inline std::string manifold_defect(const mesh::Mesh& mesh) {
             if (t[k] >= mesh.vertices.size()) return "a corner does not exist";
             ++corners[t[k]];
             if (t[k] == t[(k + 1) % 3]) return "a facet repeats a corner";
-            if (!next.emplace(std::pair{t[k], t[(k + 1) % 3]}, t[(k + 2) % 3]).second) return "a directed edge occurs twice";
+            if (!next.emplace(std::pair{t[k], t[(k + 1) % 3]}, t[(k + 2) % 3]).second)
+                return "a directed edge occurs twice";
         }
     std::vector<char> seen(mesh.vertices.size(), 0);
     for (const auto& [edge, third] : next) {
