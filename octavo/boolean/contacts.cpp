@@ -220,6 +220,7 @@ Contacts find_contacts(const Soup& soup, const FacetTree& tree, PointTable& poin
             });
         }
     });
+
     Contacts contacts;
     for (Found& part : found) {
         name_points(part, soup, points, contacts);

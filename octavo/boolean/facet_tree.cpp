@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include <octavo/boolean/facet_tree.hpp>
+#include <octavo/exact/bit_budget.hpp>
 
 namespace octavo::boolean {
 namespace {
@@ -74,8 +76,8 @@ void set_empty(FacetTree::Node& node) {
 
 }  // namespace
 
-FacetTree::FacetTree(const Soup& soup, const Context&) {
-    const std::size_t count = soup.facets.size();
+FacetTree::FacetTree(const Soup& soup) : order_(soup.facets.size()) {
+    const std::size_t count = order_.size();
     if (count == 0) return;
     std::vector<Keyed> keyed(count);
     for (std::uint32_t facet = 0; facet < count; ++facet) {
@@ -90,8 +92,17 @@ FacetTree::FacetTree(const Soup& soup, const Context&) {
         keyed[facet] = {key, facet};
     }
     sort_by_key(keyed);
-    order_.resize(count);
-    for (std::size_t position = 0; position < count; ++position) order_[position] = keyed[position].facet;
+    leaves_.assign((count + width - 1) / width, Leaf{});
+    for (std::size_t position = 0; position < count; ++position) {
+        order_[position] = keyed[position].facet;
+        Leaf& leaf = leaves_[position / width];
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint32_t vertex = soup.facets[order_[position]][corner];
+            leaf.corner[corner][position % width] = vertex;
+            for (int axis = 0; axis < 3; ++axis)
+                leaf.point[corner][axis][position % width] = soup.points[vertex][axis];
+        }
+    }
 
     std::size_t boxes = count;
     do {
@@ -143,6 +154,72 @@ unsigned FacetTree::meeting(const Node& node, const Node& other, int lane) {
     }
     return meets;
 #endif
+}
+
+FacetTree::PlaneFilter::PlaneFilter(const Leaf& leaf, int lane) {
+    exact::Point points[3];
+    for (int k = 0; k < 3; ++k) {
+        points[k] = {leaf.point[k][0][lane], leaf.point[k][1][lane], leaf.point[k][2][lane]};
+        corner[k] = leaf.corner[k][lane];
+    }
+    const std::int64_t ux = points[1].x - points[0].x, uy = points[1].y - points[0].y,
+                       uz = points[1].z - points[0].z;
+    const std::int64_t vx = points[2].x - points[0].x, vy = points[2].y - points[0].y,
+                       vz = points[2].z - points[0].z;
+    normal[0] = static_cast<double>(uy * vz - uz * vy);
+    normal[1] = static_cast<double>(uz * vx - ux * vz);
+    normal[2] = static_cast<double>(ux * vy - uy * vx);
+    static_assert(exact::budget::normal <= 53);
+    bound = 0x1p-24 * (std::fabs(normal[0]) + std::fabs(normal[1]) + std::fabs(normal[2]));
+    for (int axis = 0; axis < 3; ++axis) at[axis] = points[0][axis];
+}
+
+unsigned FacetTree::PlaneFilter::undecided(const Leaf& leaf) const {
+    unsigned all_front = 0xff, all_back = 0xff;
+    for (int k = 0; k < 3; ++k) {
+        unsigned shared = 0, front = 0, back = 0;
+#if defined(__AVX2__)
+        const __m256i vertex = _mm256_load_si256(reinterpret_cast<const __m256i*>(leaf.corner[k]));
+        __m256i equal = _mm256_setzero_si256();
+        for (const std::uint32_t own : corner)
+            equal =
+                _mm256_or_si256(equal, _mm256_cmpeq_epi32(vertex, _mm256_set1_epi32(static_cast<int>(own))));
+        shared = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
+        __m256d low_half = _mm256_setzero_pd(), high_half = _mm256_setzero_pd();
+        for (int axis = 0; axis < 3; ++axis) {
+            const __m256i difference =
+                _mm256_sub_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(leaf.point[k][axis])),
+                                 _mm256_set1_epi32(at[axis]));
+            const __m256d factor = _mm256_set1_pd(normal[axis]);
+            const __m256d first = _mm256_cvtepi32_pd(_mm256_castsi256_si128(difference));
+            const __m256d second = _mm256_cvtepi32_pd(_mm256_extracti128_si256(difference, 1));
+            low_half = _mm256_add_pd(low_half, _mm256_mul_pd(factor, first));
+            high_half = _mm256_add_pd(high_half, _mm256_mul_pd(factor, second));
+        }
+        const __m256d limit = _mm256_set1_pd(bound), minus_limit = _mm256_set1_pd(-bound);
+        const auto bits = [](__m256d first, __m256d second) {
+            return static_cast<unsigned>(_mm256_movemask_pd(first)) |
+                   static_cast<unsigned>(_mm256_movemask_pd(second)) << 4;
+        };
+        front = bits(_mm256_cmp_pd(low_half, limit, _CMP_GT_OQ), _mm256_cmp_pd(high_half, limit, _CMP_GT_OQ));
+        back = bits(_mm256_cmp_pd(low_half, minus_limit, _CMP_LT_OQ),
+                    _mm256_cmp_pd(high_half, minus_limit, _CMP_LT_OQ));
+#else
+        for (int lane = 0; lane < width; ++lane) {
+            const std::uint32_t vertex = leaf.corner[k][lane];
+            const bool is_shared = vertex == corner[0] || vertex == corner[1] || vertex == corner[2];
+            double value = 0;
+            for (int axis = 0; axis < 3; ++axis)
+                value += normal[axis] * static_cast<double>(leaf.point[k][axis][lane] - at[axis]);
+            shared |= static_cast<unsigned>(is_shared) << lane;
+            front |= static_cast<unsigned>(value > bound) << lane;
+            back |= static_cast<unsigned>(value < -bound) << lane;
+        }
+#endif
+        all_front &= front | shared;
+        all_back &= back | shared;
+    }
+    return ~(all_front | all_back) & 0xff;
 }
 
 std::vector<FacetTree::Task> FacetTree::pair_tasks(std::size_t count) const {
