@@ -39,6 +39,7 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     add_check(*this);
     add_render(*this);
     add_convert(*this);
+    add_boolean(*this);
     add_shape(*this);
     add_octree(*this);
     add_stats(*this);

@@ -44,6 +44,7 @@ void add_stats(Program& program);
 void add_contains(Program& program);
 void add_render(Program& program);
 void add_shape(Program& program);
+void add_boolean(Program& program);
 void add_completion(Program& program);
 void add_man(Program& program);
 

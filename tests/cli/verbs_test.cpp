@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <map>
+
 #include "cli/program.hpp"
 
 // Each verb once, end to end: the keys that scripts rely on, and answers known beforehand.
@@ -63,6 +65,45 @@ TEST_F(Verbs, CheckSaysNoAndWhere) {
     EXPECT_EQ(result["problems"][0]["kind"], "open_edges");
     EXPECT_EQ(result["problems"][0]["count"], 4);
     EXPECT_EQ(result["problems"][0]["faces"].size(), 4U);
+}
+
+TEST_F(Verbs, SetOperationsOnShiftedCubesHaveTheirExactVolumes) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o a.stl").exit_code, 0);
+    ASSERT_EQ(octavo("shape cube --size 2 -o b.off").exit_code, 0);
+    const std::string shift = " a.stl b.off --transform b.off:1,0,0,1,0,1,0,0,0,0,1,0 -o out.ply --json";
+    const std::map<std::string, double> volumes{
+        {"union", 12}, {"intersection", 4}, {"difference", 4}, {"xor", 8}};
+    for (const auto& [verb, volume] : volumes) {
+        const Ran ran = octavo(verb + shift);
+        ASSERT_EQ(ran.exit_code, 0) << ran.err;
+        const json result = ran.json()["result"];
+        for (const char* key :
+             {"triangles", "vertices", "volume", "area", "closed", "manifold", "exact_fallbacks"})
+            EXPECT_TRUE(result.contains(key)) << key;
+        EXPECT_EQ(result["volume"], volume) << verb;
+        EXPECT_EQ(result["closed"], true);
+        EXPECT_EQ(octavo("check out.ply").exit_code, 0) << verb;
+    }
+}
+
+TEST_F(Verbs, AnEmptyResultIsASuccessWithAWarning) {
+    ASSERT_EQ(octavo("shape cube -o a.stl").exit_code, 0);
+    ASSERT_EQ(octavo("shape cube -o b.stl").exit_code, 0);
+    const Ran ran = octavo("difference a.stl b.stl -o out.off --json");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.json()["result"]["triangles"], 0);
+    EXPECT_EQ(ran.json()["result"]["volume"], 0.0);
+    EXPECT_EQ(ran.json()["warnings"].size(), 1U);
+}
+
+TEST_F(Verbs, SetOperationsRefuseOpenOperandsNamingFacets) {
+    write("open.off", open_cube);
+    ASSERT_EQ(octavo("shape cube -o a.stl").exit_code, 0);
+    const Ran ran = octavo("union a.stl open.off -o out.ply --json");
+    EXPECT_EQ(ran.exit_code, 3);
+    EXPECT_EQ(ran.json()["error"]["code"], "not_a_solid");
+    EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+    EXPECT_EQ(octavo("union a.stl a.stl --transform b.stl:1 -o out.ply").exit_code, 2);
 }
 
 TEST_F(Verbs, OctreeBoundsTheVolumeAndStatsReadsItBack) {

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "model.hpp"
+#include "program.hpp"
+#include <octavo/boolean/evaluate.hpp>
+#include <octavo/mesh/measure.hpp>
+#include <octavo/mesh/transform.hpp>
+
+// `octavo union A B … -o OUT`, `intersection`, `difference` and `xor`: exact set operations on any number of meshes,
+// in one pass.
+
+namespace octavo::cli {
+namespace {
+
+struct BooleanOptions {
+    std::vector<std::string> operands, transforms;
+    std::string output, format, simplify = "coplanar";
+};
+
+using Operation = Result<boolean::Evaluated> (*)(std::span<const mesh::Mesh>, const boolean::Options&,
+                                                 const Context&);
+
+/// One --transform: FILE and the matrix for it.
+struct Transform {
+    std::string file;
+    Affine map;
+};
+
+/// `text` is FILE:m0,m1,… with 12 or 16 numbers, row-major.
+std::optional<Transform> parse_transform(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string::npos || colon == 0) return std::nullopt;
+    std::vector<double> numbers;
+    const char* at = text.data() + colon + 1;
+    const char* const end = text.data() + text.size();
+    while (true) {
+        double number = 0;
+        const auto [after, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
+        numbers.push_back(number);
+        if (after == end) break;
+        if (*after != ',') return std::nullopt;
+        at = after + 1;
+    }
+    const bool affine = numbers.size() == 12 || (numbers.size() == 16 && numbers[12] == 0 &&
+                                                 numbers[13] == 0 && numbers[14] == 0 && numbers[15] == 1);
+    if (!affine) return std::nullopt;
+    Transform transform{text.substr(0, colon), {}};
+    for (int k = 0; k < 12; ++k) transform.map.m[k / 4][k % 4] = numbers[k];
+    return transform;
+}
+
+std::string check_transform(const std::string& text) {
+    return parse_transform(text)
+               ? ""
+               : "wants FILE:m0,m1,… with 12 numbers (3 rows of 4) or 16 (the last row 0,0,0,1)";
+}
+
+Result<std::vector<mesh::Mesh>> read_operands(Session& session, const Context& context,
+                                              const BooleanOptions& options) {
+    std::vector<mesh::Mesh> operands;
+    for (const std::string& path : options.operands) {
+        if (same_file(path, options.output)) return would_overwrite(path);
+        Result<io::ReadMesh> read = read_mesh(session, context, path);
+        if (!read) return std::move(read).error();
+        operands.push_back(std::move(read->mesh));
+    }
+    for (const std::string& text : options.transforms) {
+        const Transform transform = *parse_transform(text);
+        bool found = false;
+        for (std::size_t i = 0; i < operands.size(); ++i)
+            if (options.operands[i] == transform.file) {
+                operands[i] = mesh::transform(operands[i], transform.map);
+                found = true;
+            }
+        if (!found)
+            return Error{
+                ErrorCode::bad_input, "--transform names " + transform.file + ", which is no operand", {}};
+    }
+    return operands;
+}
+
+void tell(Session& session, const boolean::Evaluated& evaluated, const std::string& output) {
+    const mesh::Measures measures = mesh::measure(evaluated.mesh);
+    const boolean::Report& report = evaluated.report;
+    session.warn(report.warnings);
+    session.result = {{"triangles", evaluated.mesh.triangles.size()},
+                      {"vertices", evaluated.mesh.vertices.size()},
+                      {"volume", measures.volume},
+                      {"area", measures.area},
+                      {"closed", report.closed},
+                      {"manifold", report.manifold},
+                      {"exact_fallbacks", report.exact_fallbacks},
+                      {"operands", report.operands},
+                      {"input_triangles", report.input_triangles},
+                      {"cut_facets", report.cut_facets},
+                      {"largest_displacement", report.largest_displacement},
+                      {"largest_rounding", report.largest_rounding},
+                      {"inverted_facets", report.inverted_facets}};
+    session.text = fmt::format("{}: {} triangles, volume {:.10g}, area {:.10g}\n", output,
+                               grouped(evaluated.mesh.triangles.size()), measures.volume, measures.area);
+}
+
+Result<ExitCode> evaluate(Session& session, const BooleanOptions& options, Operation operation) {
+    const Context context = session.context();
+    Result<std::vector<mesh::Mesh>> operands = read_operands(session, context, options);
+    if (!operands) return std::move(operands).error();
+    boolean::Options evaluating;
+    evaluating.simplify = options.simplify == "none" ? boolean::Simplify::none : boolean::Simplify::coplanar;
+    Result<boolean::Evaluated> evaluated =
+        session.timed("evaluate", [&] { return operation(*operands, evaluating, context); });
+    if (!evaluated) return std::move(evaluated).error();
+    io::WriteOptions writing;
+    writing.format = options.format;
+    Result<io::WriteReport> written = write_mesh(session, context, options.output, evaluated->mesh, writing);
+    if (!written) return std::move(written).error();
+    tell(session, *evaluated, options.output);
+    return ExitCode::ok;
+}
+
+void add_operation(Program& program, const char* name, const char* summary, Operation operation) {
+    const auto options = std::make_shared<BooleanOptions>();
+    CLI::App* verb = program.verb(name, "Edit", summary, [options, operation](Session& session) {
+        return evaluate(session, *options, operation);
+    });
+    verb->add_option("FILES", options->operands, "Closed meshes, two or more")->required()->type_name("FILE");
+    verb->add_option("-o,--output", options->output, "The mesh to write; - is stdout")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("--transform", options->transforms,
+                     "FILE:m0,m1,…: moves an operand by a matrix of 12 or 16 numbers, row-major")
+        ->check(check_transform)
+        ->type_name("FILE:MATRIX");
+    verb->add_option("--simplify", options->simplify,
+                     "What happens to cut facets in one plane: coplanar merges, none leaves them")
+        ->check(CLI::IsMember({"none", "coplanar"}))
+        ->type_name("KIND");
+    verb->add_option("--to", options->format, "Format of the output, instead of by its extension")
+        ->type_name("FORMAT");
+}
+
+}  // namespace
+
+void add_boolean(Program& program) {
+    add_operation(program, "union", "Unite solids exactly", boolean::unite);
+    add_operation(program, "intersection", "Intersect solids exactly", boolean::intersect);
+    add_operation(program, "difference", "Subtract solids from the first, exactly", boolean::subtract);
+    add_operation(program, "xor", "Keep what is inside an odd number of solids",
+                  boolean::symmetric_difference);
+}
+
+}  // namespace octavo::cli
