@@ -34,6 +34,15 @@ class Oracle {
     Oracle(const mesh::LatticeMesh& mesh, int scale_bits)
         : scale_bits_(scale_bits), surface_(world_surface(mesh, scale_bits)) {}
 
+    /// Whether the point is a multiple of 2^-scale_bits. Beside zero there are doubles that are not.
+    bool represents(Vec3 p) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            const Integer value = exact_multiple(p[axis]);
+            if (value >> (bits - scale_bits_) << (bits - scale_bits_) != value) return false;
+        }
+        return true;
+    }
+
     Side operator()(Vec3 p) const {
         const auto scaled = [&](double v) { return Integer(exact_multiple(v) >> (bits - scale_bits_)); };
         const tests::Place place = tests::place_of(surface_, {scaled(p.x), scaled(p.y), scaled(p.z)});
@@ -126,6 +135,7 @@ Tally expect_answers_of_the_oracle(const mesh::LatticeMesh& mesh, const std::vec
     const std::vector<Side> batch = (*query)(points, with_threads(1));
     Tally tally;
     for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!oracle.represents(points[i])) continue;
         const Side expected = oracle(points[i]);
         tally.add(expected);
         EXPECT_EQ((*query)(points[i]), expected) << points[i].x << " " << points[i].y << " " << points[i].z;
