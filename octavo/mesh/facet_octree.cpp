@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 
-#include <octavo/base/parallel.hpp>
 #include <octavo/mesh/facet_octree.hpp>
 
 namespace octavo::mesh {
@@ -11,16 +10,27 @@ namespace {
 
 using exact::Point;
 
-// Smaller leaves list facets more often, larger ones have more pairs.
-constexpr std::size_t leaf_size = 24;
+// A leaf has at most the pairs of so many facets. Smaller leaves list facets more often, larger ones have more pairs.
+constexpr double leaf_size = 24;
 
-// A list that loses less than an eighth of its facets for so many levels will not become shorter: they really
-// lie together there. Six levels let a cell shrink to 1/64, enough to get away from the far end of a fan.
-constexpr int most_stalled = 6;
+// Splitting costs longer lists (facets in several octants) and pays in fewer pairs. Parallel slivers lie twice as often in
+// lists half as long: nothing gained, however small the cells. So a path keeps account of its waste, and stops where it
+// exceeds what all pairs of the list would cost; the divisor is entries that are split in the time of a pair.
+// Counting levels in which lists do not shrink was tried: fans of a thousand slivers of aspect 10^4 took minutes.
+constexpr double least_waste = 8;
+constexpr double facets_per_waste = 32;
 
-// Facets of a part. Small enough for eight threads to share 100K facets, large enough that the parts' own lists
+bool gives_up(double waste, std::size_t facets) {
+    return waste > std::max(least_waste, static_cast<double>(facets) / facets_per_waste);
+}
+
+// Fewer facets that run through a cell are no bundle worth settling; more would cost seconds at once, and may part in
+// smaller cells.
+constexpr std::size_t least_settled = 16, most_settled = 8192;
+
+// Facets of a task. Small enough for eight threads to share 100K facets, large enough that the lists of the tasks
 // are lost in the cost.
-constexpr std::size_t part_size = 4096;
+constexpr std::size_t task_size = 4096;
 
 /// The octants that a box touches, as bits: the low half of an axis holds [low, middle), the high one the rest.
 std::uint32_t octants_of_box(const FacetBox& box, const std::array<std::int32_t, 3>& middle) {
@@ -64,63 +74,155 @@ std::uint32_t octants_of(const std::array<Point, 3>& facet, const FacetCell& cel
     return octants;
 }
 
-/// The descent below one part; the lists of the cells on the path lie one after the other on a stack.
-class LeafDescent {
-  public:
-    LeafDescent(std::span<const Point> points, std::span<const Triangle> triangles, const LeafVisitor& visit)
-        : points_(points), triangles_(triangles), visit_leaf_(visit) {}
+/// Entries of a list, and those of them that are not settled.
+struct ListSize {
+    std::size_t all = 0, fresh = 0;
+    /// Twice the number of pairs to visit.
+    double pairs() const {
+        return static_cast<double>(fresh) * (2 * static_cast<double>(all) - static_cast<double>(fresh));
+    }
+};
 
-    void run(const FacetList& part) {
-        stack_ = part.faces;
-        visit(part.cell, 0);
+/// The waste of the octants of a cell: grows with the entries of their lists, shrinks with their pairs.
+double waste_below(double waste, const ListSize& cell, const std::array<ListSize, 8>& octants) {
+    double entries = 0, pairs = 0;
+    for (const ListSize& octant : octants) {
+        if (octant.fresh == 0) continue;
+        entries += static_cast<double>(octant.all);
+        pairs += octant.pairs();
+    }
+    return std::max(1.0, waste * (entries / static_cast<double>(cell.all)) * (pairs / cell.pairs()));
+}
+
+/// Does the facet reach from one side of the cell to the other along an axis?
+bool runs_through(const std::array<Point, 3>& facet, const FacetCell& cell) {
+    const FacetBox box = box_of(facet);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (box.low[axis] <= cell.low[axis] && box.high[axis] >= cell.low[axis] + cell.side) return true;
+    return false;
+}
+
+/// The descent below one part; the lists of the cells on the path lie one after the other on a stack.
+class PairDescent {
+  public:
+    PairDescent(std::span<const Point> points, std::span<const Triangle> triangles, const PairVisitor& visit)
+        : points_(points), triangles_(triangles), visit_pairs_(visit) {}
+
+    void run(const PairTask& task) {
+        if (!task.descend) return visit_pairs_(task.cell, task.faces, task.fresh);
+        stack_ = task.faces;
+        for (std::size_t i = task.fresh; i < stack_.size(); ++i) stack_[i] |= settled;
+        visit(task.cell, 0);
+    }
+
+    /// Descends no further than to cells with few enough facets for one task; these and the pairs met on the way
+    /// become the tasks.
+    std::vector<PairTask> run_to_tasks(std::vector<FaceIndex> faces) {
+        std::vector<PairTask> tasks;
+        tasks_ = &tasks;
+        stack_ = std::move(faces);
+        visit(FacetCell{}, 0);
+        return tasks;
     }
 
   private:
+    // Entries of the stack are facets; this bit marks settled ones. Facets are fewer than a third of 2^32.
+    static constexpr FaceIndex settled = FaceIndex{1} << 31;
+
     /// The cell's list is the stack from `begin` to its top; it is gone afterwards.
     void visit(const FacetCell& cell, std::size_t begin) {
-        const std::size_t count = stack_.size() - begin;
-        if (count <= leaf_size || cell.side == 1 || cell.stalled >= most_stalled) {
-            leaf(cell, begin);
-        } else if (!is_fan_without_ends(cell, begin)) {
-            split(cell, begin);
+        ListSize size = size_from(begin);
+        if (tasks_ && size.all <= task_size) {
+            if (size.fresh > 0 && size.all > 1)
+                visit_chosen(cell, begin, true, [](FaceIndex) { return true; });
+            size.fresh = 0;
         }
+        if (size.fresh > 0 && !is_leaf(cell, size)) {
+            if (is_fan_without_ends(cell, begin)) {
+                size.fresh = 0;
+            } else {
+                size.fresh -= settle_through_going(cell, begin);
+                if (size.fresh > 0 && !is_leaf(cell, size)) {
+                    split(cell, begin, size);
+                    size.fresh = 0;
+                }
+            }
+        }
+        if (size.fresh > 0 && size.all > 1) visit_chosen(cell, begin, true, [](FaceIndex) { return true; });
         stack_.resize(begin);
     }
 
-    void leaf(const FacetCell& cell, std::size_t begin) {
-        const std::size_t count = stack_.size() - begin;
-        if (count < 2) return;
-        const std::size_t fan = count <= leaf_size ? 0 : put_fan_last(cell, begin);
-        visit_leaf_({stack_.data() + begin, count}, fan);
+    bool is_leaf(const FacetCell& cell, const ListSize& size) const {
+        return size.pairs() <= leaf_size * leaf_size || cell.side == 1 || gives_up(cell.waste, size.all);
     }
 
-    void split(const FacetCell& cell, std::size_t begin) {
-        const std::size_t end = stack_.size(), count = end - begin;
-        const std::size_t first_mask = masks_.size();
-        std::array<std::size_t, 8> counts{};
+    ListSize size_from(std::size_t begin) const {
+        ListSize size;
+        size.all = stack_.size() - begin;
+        for (std::size_t i = begin; i < stack_.size(); ++i) size.fresh += !(stack_[i] & settled);
+        return size;
+    }
+
+    /// Visits the pairs of the fresh facets that are chosen, with each other and with the settled ones, or makes them
+    /// a task.
+    template <class Choose>
+    void visit_chosen(const FacetCell& cell, std::size_t begin, bool descend, const Choose& choose) {
+        chosen_.clear();
+        for (std::size_t i = begin; i < stack_.size(); ++i)
+            if (!(stack_[i] & settled) && choose(stack_[i])) chosen_.push_back(stack_[i]);
+        const std::size_t fresh = chosen_.size();
+        for (std::size_t i = begin; i < stack_.size(); ++i)
+            if (stack_[i] & settled) chosen_.push_back(stack_[i] & ~settled);
+        if (tasks_)
+            tasks_->push_back({cell, chosen_, fresh, descend});
+        else
+            visit_pairs_(cell, chosen_, fresh);
+    }
+
+    /// Settles the facets that run through the cell, if they are many; returns how many.
+    std::size_t settle_through_going(const FacetCell& cell, std::size_t begin) {
+        const auto through = [&](FaceIndex face) {
+            return !(face & settled) && runs_through(corners_of(triangles_[face], points_), cell);
+        };
+        const auto count = static_cast<std::size_t>(
+            std::count_if(stack_.begin() + static_cast<std::ptrdiff_t>(begin), stack_.end(), through));
+        if (count < least_settled || count > most_settled) return 0;
+        visit_chosen(cell, begin, false, through);
+        for (std::size_t i = begin; i < stack_.size(); ++i)
+            if (through(stack_[i])) stack_[i] |= settled;
+        return count;
+    }
+
+    void split(const FacetCell& cell, std::size_t begin, const ListSize& size) {
+        const std::size_t end = stack_.size(), first_mask = masks_.size();
+        std::array<ListSize, 8> sizes{};
         for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t octants = octants_of(corners_of(triangles_[stack_[i]], points_), cell);
+            const FaceIndex face = stack_[i] & ~settled;
+            const std::uint32_t octants = octants_of(corners_of(triangles_[face], points_), cell);
             masks_.push_back(static_cast<std::uint8_t>(octants));
-            for (std::size_t octant = 0; octant < 8; ++octant) counts[octant] += octants >> octant & 1;
+            for (std::size_t octant = 0; octant < 8; ++octant) {
+                sizes[octant].all += octants >> octant & 1;
+                sizes[octant].fresh += !(stack_[i] & settled) && (octants >> octant & 1);
+            }
         }
+        const double waste = waste_below(cell.waste, size, sizes);
         for (std::size_t octant = 0; octant < 8; ++octant) {
-            if (counts[octant] < 2) continue;
-            for (std::size_t i = 0; i < count; ++i)
-                if (masks_[first_mask + i] >> octant & 1) stack_.push_back(stack_[begin + i]);
+            if (sizes[octant].fresh == 0 || sizes[octant].all < 2) continue;
+            for (std::size_t i = begin; i < end; ++i)
+                if (masks_[first_mask + i - begin] >> octant & 1) stack_.push_back(stack_[i]);
             FacetCell child = octant_of(cell, octant);
-            child.stalled = counts[octant] > count - count / 8 ? cell.stalled + 1 : 0;
+            child.waste = waste;
             visit(child, end);
         }
         masks_.resize(first_mask);
     }
 
-    /// A vertex of the first facet that is a vertex of all, and is no end of an edge that enters the cell and
-    /// lies opposite to it in some facet. Such a cell has nothing to find.
-    bool is_fan_without_ends(const FacetCell& cell, std::size_t begin) {
-        for (const VertexIndex vertex : triangles_[stack_[begin]]) {
+    /// Is a vertex of the first facet one of all, and no end of the fan at it in the cell?
+    bool is_fan_without_ends(const FacetCell& cell, std::size_t begin) const {
+        for (const VertexIndex vertex : triangles_[stack_[begin] & ~settled]) {
             bool fan = true;
             for (std::size_t i = begin; fan && i < stack_.size(); ++i)
-                fan = has_no_end_inside(stack_[i], vertex, cell);
+                fan = has_no_end_inside(stack_[i] & ~settled, vertex, cell);
             if (fan) return true;
         }
         return false;
@@ -135,30 +237,11 @@ class LeafDescent {
         return false;
     }
 
-    /// Moves the largest such fan of the leaf to the end of its list; returns its size.
-    std::size_t put_fan_last(const FacetCell& cell, std::size_t begin) {
-        std::vector<VertexIndex> corners;
-        for (std::size_t i = begin; i < stack_.size(); ++i)
-            corners.insert(corners.end(), triangles_[stack_[i]].begin(), triangles_[stack_[i]].end());
-        std::sort(corners.begin(), corners.end());
-        VertexIndex commonest = corners[0];
-        std::size_t most = 0;
-        for (std::size_t i = 0; i < corners.size();) {
-            std::size_t j = i;
-            while (j < corners.size() && corners[j] == corners[i]) ++j;
-            if (j - i > most) most = j - i, commonest = corners[i];
-            i = j;
-        }
-        const auto first = stack_.begin() + static_cast<std::ptrdiff_t>(begin);
-        const auto fan = std::stable_partition(
-            first, stack_.end(), [&](FaceIndex face) { return !has_no_end_inside(face, commonest, cell); });
-        return static_cast<std::size_t>(stack_.end() - fan);
-    }
-
     std::span<const Point> points_;
     std::span<const Triangle> triangles_;
-    const LeafVisitor& visit_leaf_;
-    std::vector<FaceIndex> stack_;
+    const PairVisitor& visit_pairs_;
+    std::vector<PairTask>* tasks_ = nullptr;  ///< where tasks go instead of visits
+    std::vector<FaceIndex> stack_, chosen_;
     std::vector<std::uint8_t> masks_;
 };
 
@@ -180,44 +263,19 @@ bool apart(std::int64_t a, std::int64_t b, std::int64_t radius) {
 
 }  // namespace
 
-std::vector<FacetList> split_into_parts(std::span<const Point> points, std::span<const Triangle> triangles,
-                                        const Context& context) {
-    std::vector<FacetList> parts(1);
+std::vector<PairTask> make_pair_tasks(std::span<const Point> points, std::span<const Triangle> triangles) {
+    std::vector<FaceIndex> faces;
     for (FaceIndex face = 0; face < triangles.size(); ++face) {
         const auto [a, b, c] = triangles[face];
-        if (a != b && b != c && c != a) parts[0].faces.push_back(face);
+        if (a != b && b != c && c != a) faces.push_back(face);
     }
-    // Level by level, the octants of a cell in its place.
-    for (bool split = true; split && !context.cancelled();) {
-        split = false;
-        std::vector<FacetList> next;
-        for (FacetList& part : parts) {
-            if (part.faces.size() <= part_size || part.cell.stalled >= 2 || part.cell.side == 1) {
-                next.push_back(std::move(part));
-                continue;
-            }
-            split = true;
-            std::array<FacetList, 8> octants;
-            for (const FaceIndex face : part.faces)
-                for (std::uint32_t rest = octants_of(corners_of(triangles[face], points), part.cell);
-                     rest != 0; rest &= rest - 1)
-                    octants[static_cast<std::size_t>(std::countr_zero(rest))].faces.push_back(face);
-            for (std::size_t octant = 0; octant < 8; ++octant) {
-                FacetList& list = octants[octant];
-                list.cell = octant_of(part.cell, octant);
-                list.cell.stalled =
-                    list.faces.size() > part.faces.size() - part.faces.size() / 8 ? part.cell.stalled + 1 : 0;
-                if (list.faces.size() > 1) next.push_back(std::move(list));
-            }
-        }
-        parts = std::move(next);
-    }
-    return parts;
+    const PairVisitor nobody;
+    return PairDescent(points, triangles, nobody).run_to_tasks(std::move(faces));
 }
 
-void for_each_leaf(const FacetList& part, std::span<const Point> points, std::span<const Triangle> triangles,
-                   const LeafVisitor& visit) {
-    LeafDescent(points, triangles, visit).run(part);
+void for_near_pairs(const PairTask& task, std::span<const Point> points, std::span<const Triangle> triangles,
+                    const PairVisitor& visit) {
+    PairDescent(points, triangles, visit).run(task);
 }
 
 bool may_enter(const std::array<exact::Point, 3>& facet, const std::array<std::int32_t, 3>& low,

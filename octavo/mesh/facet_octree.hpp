@@ -8,16 +8,23 @@
 #include <span>
 #include <vector>
 
-#include <octavo/base/context.hpp>
 #include <octavo/mesh/mesh.hpp>
 
-// A descent over lists of facets that ends in cells with few of them: whatever two facets have in common, some
-// leaf lists both and holds the place.
+// A descent over lists of facets that ends in cells with few of them: whatever two facets have in common, they are
+// visited as a pair in some cell that holds a place of it.
 //
 // Cells are half-open cubes [low, low + side) of real points, with lattice corners. Facets go to octants by
 // their boxes, and those that are long and lie askew also by separating axes (T. Akenine-Möller, "Fast 3D
 // triangle-box overlap testing", 2001): in integers, except for the facet's plane, whose test is in doubles and
 // keeps the facet when in doubt. To list a facet where it is not costs time; where it is it is always listed.
+//
+// What makes such searches quadratic are slivers, and three rules keep them from it:
+//  * Slivers that run through a cell from end to end would meet again in every small cell along their way. Their pairs
+//    are visited at once, in the large cell; below, they are *settled* and visited only with what is fresh.
+//  * The n² pairs of a fan round one vertex lie wherever the cell at that vertex is cut. But what two facets with a
+//    common vertex have in common beyond it ends on a side opposite to the vertex; cells in which all facets have
+//    one vertex, and no such side, are passed over.
+//  * Splitting costs longer lists and pays in fewer pairs; paths on which it does not pay end.
 //
 // octree::descend is not used here: it delivers leaves in Morton order with a description each and forks by
 // octants, while this search wants no output tree, throws cells away in the middle and keeps all lists of a
@@ -39,27 +46,30 @@ inline FacetBox box_of(const std::array<exact::Point, 3>& p) {
 struct FacetCell {
     std::array<std::int32_t, 3> low{};
     std::int32_t side = exact::universe_side;
-    int stalled = 0;  ///< levels in which the list hardly became shorter
+    double waste = 1;  ///< how much longer the lists have become without fewer pairs to show for it
 };
 
-/// A cell with the facets that enter it.
-struct FacetList {
+/// Called with facets near each other: the pairs to look at are those of the first `fresh` ones among themselves and
+/// with the rest, whose own pairs have had their turn.
+using PairVisitor =
+    std::function<void(const FacetCell& cell, std::span<const FaceIndex> faces, std::size_t fresh)>;
+
+/// A piece of the search that one thread can do: a cell to descend from, or pairs to visit as they are.
+struct PairTask {
     FacetCell cell;
-    std::vector<FaceIndex> faces;
+    std::vector<FaceIndex> faces;  ///< first the fresh ones
+    std::size_t fresh = 0;
+    bool descend = false;
 };
 
-/// Called with the facets of a leaf, of which the last `fan` share a vertex and do not end inside the cell: what two
-/// of those have in common beyond the vertex shows in other leaves.
-using LeafVisitor = std::function<void(std::span<const FaceIndex> faces, std::size_t fan)>;
+/// Splits the search over the whole universe into pieces, which do not depend on the threads. Facets that repeat a
+/// vertex are left out.
+std::vector<PairTask> make_pair_tasks(std::span<const exact::Point> points,
+                                      std::span<const Triangle> triangles);
 
-/// Splits the universe until no part has much work; the parts do not depend on the threads. Facets that repeat
-/// a vertex are left out.
-std::vector<FacetList> split_into_parts(std::span<const exact::Point> points,
-                                        std::span<const Triangle> triangles, const Context& context);
-
-/// Descends from the part's cell and visits the leaves.
-void for_each_leaf(const FacetList& part, std::span<const exact::Point> points,
-                   std::span<const Triangle> triangles, const LeafVisitor& visit);
+/// Visits the pairs of facets that may meet in the task's cell.
+void for_near_pairs(const PairTask& task, std::span<const exact::Point> points,
+                    std::span<const Triangle> triangles, const PairVisitor& visit);
 
 /// May the facet have a point in the closed cube? Exact but for the plane, which counts as met when rounding
 /// leaves it open.

@@ -21,11 +21,11 @@ enum class ProblemKind : std::uint8_t {
     self_intersections,  ///< pairs of facets: an edge of one runs strictly through the interior of the other
     penetrations,        ///< pairs whose interiors cross, but only through edges and vertices
     overlaps,            ///< pairs in one plane with common area
+    duplicate_facets,    ///< facets with the same vertices as an earlier one
     inside_out_shells,   ///< closed shells inside of which the winding number is negative
     // From here on: worth knowing, but a solid may have them.
     non_manifold_edges,     ///< edges with more than two facets
     non_manifold_vertices,  ///< vertices at which surfaces only touch
-    duplicate_facets,       ///< facets with the same vertices as an earlier one
     zero_area_facets,       ///< facets whose corners are collinear or equal
     touching_facets,        ///< pairs that meet in points or segments without sharing them by index
     snapped_facets,         ///< facets that lose their area when snapped to the lattice

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <functional>
 
 #include <octavo/base/parallel.hpp>
 #include <octavo/mesh/facet_octree.hpp>
@@ -14,6 +15,9 @@ using exact::Point;
 // Beyond this many facets at a vertex its pairs are left to the descent, which prunes fans; below, all pairs of
 // a star are cheaper.
 constexpr std::uint32_t largest_star = 24;
+
+// Lists of fewer facets hold no fan worth looking for.
+constexpr std::size_t least_fan = 25;
 
 // Vertices whose stars are searched at once: far above the cost of handing out work.
 constexpr std::size_t stars_at_once = 4096;
@@ -93,16 +97,16 @@ void search_star(std::span<const Point> points, std::span<const Triangle> triang
 }
 
 /// Finds the pairs that no star has, in one cell after the other.
-class LeafSearch {
+class CellSearch {
   public:
-    LeafSearch(std::span<const Point> points, std::span<const Triangle> triangles, const Stars& stars,
+    CellSearch(std::span<const Point> points, std::span<const Triangle> triangles, const Stars& stars,
                SelfIntersections& found)
         : points_(points), triangles_(triangles), stars_(stars), found_(found) {}
 
-    /// Tests the pairs of `faces`, except those of which both are among the last `fan` of them.
-    void operator()(std::span<const FaceIndex> faces, std::size_t fan) {
+    void operator()(const FacetCell& cell, std::span<const FaceIndex> faces, std::size_t fresh) {
         gather(faces);
-        for (std::size_t i = 0; i < faces.size() - fan; ++i) {
+        note_ends(cell);
+        for (std::size_t i = 0; i < fresh; ++i) {
             mark_boxes_that_meet(i);
             for (std::size_t j = i + 1; j < faces.size(); ++j)
                 if (meets_[j]) test(i, j, faces);
@@ -123,6 +127,16 @@ class LeafSearch {
         }
     }
 
+    /// For each corner of each facet: does the side opposite to it enter the cell? Needed where fans are.
+    void note_ends(const FacetCell& cell) {
+        ends_inside_.assign(facets_.size(), {true, true, true});
+        if (facets_.size() < least_fan) return;
+        for (std::size_t i = 0; i < facets_.size(); ++i)
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                ends_inside_[i][corner] = enters(facets_[i].points[(corner + 1) % 3],
+                                                 facets_[i].points[(corner + 2) % 3], cell.low, cell.side);
+    }
+
     /// Six comparisons an entry in a loop without branches, which compilers make eight entries wide.
     void mark_boxes_that_meet(std::size_t i) {
         const std::int32_t lx = low_[0][i], ly = low_[1][i], lz = low_[2][i];
@@ -140,8 +154,13 @@ class LeafSearch {
         const Triangle& a = facets_[i].vertices;
         const Triangle& b = facets_[j].vertices;
         VertexIndex least = ~VertexIndex{0};
-        for (const VertexIndex v : a)
-            if (v == b[0] || v == b[1] || v == b[2]) least = std::min(least, v);
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t l = 0; l < 3; ++l) {
+                if (a[k] != b[l]) continue;
+                // What they have in common beyond this vertex ends on a side opposite to it: not in this cell.
+                if (!ends_inside_[i][k] && !ends_inside_[j][l]) return;
+                least = std::min(least, a[k]);
+            }
         if (least != ~VertexIndex{0} && stars_.searched(least)) return;
         add(found_, contact(facets_[i], facets_[j]), faces[i], faces[j]);
     }
@@ -151,6 +170,7 @@ class LeafSearch {
     const Stars& stars_;
     SelfIntersections& found_;
     std::vector<Facet> facets_;
+    std::vector<std::array<bool, 3>> ends_inside_;  ///< by facet and corner
     std::array<std::vector<std::int32_t>, 3> low_, high_;
     std::vector<std::int32_t> meets_;
 };
@@ -183,12 +203,13 @@ Result<SelfIntersections> find_self_intersections(std::span<const Point> points,
                 search_star(points, triangles, stars.of(vertex), vertex, star, found[begin / stars_at_once]);
     });
 
-    const std::vector<FacetList> parts = split_into_parts(points, triangles, context);
-    const std::size_t first_part = found.size();
-    found.resize(first_part + parts.size());
-    parallel_chunks(context, parts.size(), 1, [&](std::size_t part, std::size_t) {
-        LeafSearch search(points, triangles, stars, found[first_part + part]);
-        for_each_leaf(parts[part], points, triangles, search);
+    if (context.cancelled()) return Context::cancelled_error();
+    const std::vector<PairTask> tasks = make_pair_tasks(points, triangles);
+    const std::size_t first_task = found.size();
+    found.resize(first_task + tasks.size());
+    parallel_chunks(context, tasks.size(), 1, [&](std::size_t task, std::size_t) {
+        CellSearch search(points, triangles, stars, found[first_task + task]);
+        for_near_pairs(tasks[task], points, triangles, std::ref(search));
     });
     if (context.cancelled()) return Context::cancelled_error();
     return merged(found);

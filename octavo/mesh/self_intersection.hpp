@@ -12,15 +12,9 @@
 // All pairs of facets of one mesh that meet where they should not; exact on the lattice.
 //
 // Facets that share a vertex are the bulk of all near pairs, and a broad phase would find each of them again
-// and again; they are taken from the vertices' stars instead, each once, and from the edges. The rest is found by an
-// octree descent over the facets' list: cells halve until few facets are left, and the pairs of a leaf are
-// tested box by box, then exactly.
-//
-// Slivers are what makes such searches quadratic. A facet whose box says little is tested against each octant
-// itself, so that a long one is listed only where it really runs. And fans: the pairs of a fan of n facets at one
-// vertex are n² wherever the cell round the vertex is cut. But facets that share a vertex and meet elsewhere too
-// meet along a ray from it, which ends on an edge of one that does not contain the vertex; so in a cell that
-// no such edge enters, facets of one fan need no test at all, and the search is linear again.
+// and again; they are taken from the vertices' stars instead, each once. The rest, and the stars of vertices with very
+// many facets, are found by an octree descent over lists of facets (facet_octree.hpp), which keeps slivers and fans from
+// costing n². Pairs are tested box by box, then exactly (facet_pair.hpp).
 //
 // Cost: armadillo (346K facets) 0.2 s on one core, memory 60 bytes a facet. Results are sorted: they do not
 // depend on the number of threads.

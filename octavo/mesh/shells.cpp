@@ -59,8 +59,18 @@ class QueryGrid {
     std::vector<std::uint32_t> begin_, members_;
 };
 
-/// How the ray from just left of `q` to the left crosses the facet: +1 outwards, −1 inwards, 0 not at all.
-int crossing_to_the_left(const std::array<Point, 3>& facet, Point q) {
+/// How the ray from q to the left crosses a facet.
+struct Crossing {
+    int direction = 0;      ///< +1 outwards, −1 inwards, 0 not at all
+    bool at_start = false;  ///< q may lie on the facet, so that the answer is that of the symbolic step
+};
+
+Crossing crossing_to_the_left(const std::array<Point, 3>& facet, Point q) {
+    const exact::Plane plane = exact::Plane::through(facet[0], facet[1], facet[2]);
+    const Sign side = sign_of(plane.value_at(q)), outward_x = sign_of(plane.a());
+    // The caller knows that q is in the facet's box but for being right of it.
+    if (side == Sign::zero) return {0, q.x <= std::max({facet[0].x, facet[1].x, facet[2].x})};
+    if (side * outward_x != Sign::positive) return {};
     // In the plane of y and z: is the moved q in the triangle? Half-open in z for the step in z, and a point on
     // an edge is right of it for the step in y.
     int edges_beyond = 0;
@@ -69,12 +79,8 @@ int crossing_to_the_left(const std::array<Point, 3>& facet, Point q) {
         if ((a.z > q.z) == (b.z > q.z)) continue;
         edges_beyond += (a.z > q.z ? orient2d(0, b, a, q) : orient2d(0, a, b, q)) == Sign::positive;
     }
-    if (edges_beyond != 1) return 0;
-    const exact::Plane plane = exact::Plane::through(facet[0], facet[1], facet[2]);
-    const Sign side = sign_of(plane.value_at(q)), outward_x = sign_of(plane.a());
-    // On the plane itself the step to the left decides: the facet is then not to the left.
-    if (side * outward_x != Sign::positive) return 0;
-    return outward_x == Sign::negative ? 1 : -1;
+    if (edges_beyond != 1) return {};
+    return {outward_x == Sign::negative ? 1 : -1, false};
 }
 
 std::vector<bool> balanced_edges(const EdgeTable& edges, std::span<const Triangle> triangles) {
@@ -87,54 +93,98 @@ std::vector<bool> balanced_edges(const EdgeTable& edges, std::span<const Triangl
     return balanced;
 }
 
-}  // namespace
-
-Shells find_shells(std::span<const Point> points, std::span<const Triangle> triangles,
-                   const EdgeTable& edges) {
+Shells gather_shells(std::span<const Point> points, std::span<const Triangle> triangles,
+                     const EdgeTable& edges) {
     Shells result;
     const Components components = components_by_edge(edges, triangles.size());
+    const std::vector<bool> balanced = balanced_edges(edges, triangles);
     std::vector<std::uint32_t> number(components.count, no_index);
     result.of_face.assign(triangles.size(), no_index);
-    std::vector<Query> queries;
-    const std::vector<bool> balanced = balanced_edges(edges, triangles);
     for (FaceIndex face = 0; face < triangles.size(); ++face) {
-        if (edges.edge_of_side[3 * face] == no_index) continue;
+        if (edges.edge_of_side[std::size_t{3} * face] == no_index) continue;
         std::uint32_t& shell = number[components.of_face[face]];
         if (shell == no_index) {
             shell = static_cast<std::uint32_t>(result.shells.size());
             result.shells.emplace_back().closed = true;
-            queries.push_back({points[triangles[face][0]], shell});
         }
         result.of_face[face] = shell;
         Shell& s = result.shells[shell];
         ++s.faces;
         s.volume6 += exact_volume6(points, triangles.subspan(face, 1));
-        for (std::size_t k = 0; k < 3; ++k) {
-            s.closed = s.closed && balanced[edges.edge_of_side[3 * face + k]];
-            queries[shell].point = std::min(queries[shell].point, points[triangles[face][k]]);
-        }
+        for (std::size_t k = 0; k < 3; ++k)
+            s.closed = s.closed && balanced[edges.edge_of_side[std::size_t{3} * face + k]];
     }
-    std::erase_if(queries, [&](const Query& query) { return !result.shells[query.shell].closed; });
-    if (queries.size() < 2) return result;
+    return result;
+}
 
-    const QueryGrid grid(queries);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::int32_t> winding;  // {asking shell, other}
+/// The vertices of a shell that are tried one after the other: the ends along an axis, which lie far apart, so that
+/// hardly all of them are on other shells.
+constexpr std::uint32_t most_attempts = 6;
+
+bool further_out(Point p, Point q, std::uint32_t attempt) {
+    const int axis = static_cast<int>(attempt / 2);
+    const bool first = attempt % 2 == 0;
+    if (p[axis] != q[axis]) return first ? p[axis] < q[axis] : p[axis] > q[axis];
+    return first ? p < q : q < p;
+}
+
+/// For each shell that asks, the vertex of this attempt.
+std::vector<Query> choose_queries(std::span<const Point> points, std::span<const Triangle> triangles,
+                                  const Shells& shells, const std::vector<bool>& asks,
+                                  std::uint32_t attempt) {
+    std::vector<Query> queries;
+    std::vector<std::uint32_t> number(shells.shells.size(), no_index);
     for (FaceIndex face = 0; face < triangles.size(); ++face) {
-        const std::uint32_t shell = result.of_face[face];
-        if (shell == no_index || !result.shells[shell].closed) continue;
-        const auto [i, j, k] = triangles[face];
-        const std::array<Point, 3> facet{points[i], points[j], points[k]};
-        const auto [y0, y1] = std::minmax({facet[0].y, facet[1].y, facet[2].y});
-        const auto [z0, z1] = std::minmax({facet[0].z, facet[1].z, facet[2].z});
-        const std::int32_t x0 = std::min({facet[0].x, facet[1].x, facet[2].x});
-        grid.for_each_in(y0, y1, z0, z1, [&](const Query& query) {
-            if (query.shell == shell || query.point.x < x0) return;
-            const int crossing = crossing_to_the_left(facet, query.point);
-            if (crossing != 0) winding[{query.shell, shell}] += crossing;
-        });
+        const std::uint32_t shell = shells.of_face[face];
+        if (shell == no_index || !asks[shell]) continue;
+        if (number[shell] == no_index) {
+            number[shell] = static_cast<std::uint32_t>(queries.size());
+            queries.push_back({points[triangles[face][0]], shell});
+        }
+        Point& best = queries[number[shell]].point;
+        for (const VertexIndex vertex : triangles[face])
+            if (further_out(points[vertex], best, attempt)) best = points[vertex];
     }
-    for (const auto& [pair, turns] : winding)
-        if (turns != 0) result.shells[pair.first].enclosures.push_back({pair.second, turns});
+    return queries;
+}
+
+}  // namespace
+
+Shells find_shells(std::span<const Point> points, std::span<const Triangle> triangles,
+                   const EdgeTable& edges) {
+    Shells result = gather_shells(points, triangles, edges);
+    std::vector<bool> asks(result.shells.size());
+    for (std::size_t shell = 0; shell < asks.size(); ++shell) asks[shell] = result.shells[shell].closed;
+    if (std::count(asks.begin(), asks.end(), true) < 2) return result;
+
+    for (std::uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
+        const std::vector<Query> queries = choose_queries(points, triangles, result, asks, attempt);
+        if (queries.empty()) break;
+        const QueryGrid grid(queries);
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::int32_t> winding;  // {asking shell, other}
+        std::vector<bool> on_another(result.shells.size());
+        for (FaceIndex face = 0; face < triangles.size(); ++face) {
+            const std::uint32_t shell = result.of_face[face];
+            if (shell == no_index || !result.shells[shell].closed) continue;
+            const auto [i, j, k] = triangles[face];
+            const std::array<Point, 3> facet{points[i], points[j], points[k]};
+            const auto [y0, y1] = std::minmax({facet[0].y, facet[1].y, facet[2].y});
+            const auto [z0, z1] = std::minmax({facet[0].z, facet[1].z, facet[2].z});
+            const std::int32_t x0 = std::min({facet[0].x, facet[1].x, facet[2].x});
+            grid.for_each_in(y0, y1, z0, z1, [&, y0 = y0, y1 = y1, z0 = z0, z1 = z1](const Query& query) {
+                const Point q = query.point;
+                if (query.shell == shell || q.x < x0 || q.y < y0 || q.y > y1 || q.z < z0 || q.z > z1) return;
+                const Crossing crossing = crossing_to_the_left(facet, q);
+                if (crossing.at_start) on_another[query.shell] = true;
+                if (crossing.direction != 0) winding[{query.shell, shell}] += crossing.direction;
+            });
+        }
+        const bool last = attempt + 1 == most_attempts;
+        for (const Query& query : queries) asks[query.shell] = on_another[query.shell] && !last;
+        for (const auto& [pair, turns] : winding)
+            if (turns != 0 && !asks[pair.first])
+                result.shells[pair.first].enclosures.push_back({pair.second, turns});
+    }
     return result;
 }
 

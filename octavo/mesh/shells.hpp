@@ -16,13 +16,14 @@
 // shell is the right way round depends on where it lies: the winding number of the space just inside it must not
 // be negative. So a shell with negative volume is inside out in free space and a cavity inside of a body.
 //
-// Where a shell lies is asked at its leftmost vertex, a step to the left of it, outside of the shell itself: a
-// ray to the left counts how other shells are crossed. Exact: the ray's start is moved by symbolic steps
-// (x by −ε, then y by +δ, then z by +δ², each far smaller than the one before; H. Edelsbrunner, E. Mücke,
-// "Simulation of simplicity", 1990), so it meets no edge and no vertex. Facets look up the starts in a grid over
-// y and z: linear unless all facets are large and the shells many.
+// Where a shell lies is asked at one of its vertices: a ray from there to the left counts how the other shells are
+// crossed. Should the vertex lie on another shell, another vertex is tried. Exact: the ray's start is moved by
+// symbolic steps (x by −ε, then y by +δ, then z by +δ², each far smaller than the one before; H. Edelsbrunner,
+// E. Mücke, "Simulation of simplicity", 1990), so it meets no edge and no vertex. Facets look up the starts in a
+// grid over y and z: linear unless all facets are large and the shells many.
 //
-// Where shells cross each other, "inside" depends on the place, and the answer is for that vertex.
+// Not guaranteed: where shells cross each other, "inside" depends on the vertex; and when all vertices tried lie
+// on other shells, the answer is that of the point a step to the left.
 
 namespace octavo::mesh {
 
