@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include <octavo/mesh/repair.hpp>
+#include <octavo/mesh/repair_steps.hpp>
+#include <octavo/mesh/topology.hpp>
+#include <octavo/mesh/weld.hpp>
+
+namespace octavo::mesh {
+namespace {
+
+struct Wording {
+    const char* name;
+    const char* one;
+    const char* many;
+};
+
+constexpr std::array<Wording, 10> wordings{{
+    {"merged_vertices", "vertex was merged with another at the same place",
+     "vertices were merged with others at the same place"},
+    {"dropped_collapsed_facets", "facet that named a vertex twice was dropped",
+     "facets that named a vertex twice were dropped"},
+    {"dropped_duplicate_facets", "facet that repeated another was dropped",
+     "facets that repeated others were dropped"},
+    {"dropped_inner_walls", "facet of a wall without thickness inside the solid was dropped",
+     "facets of walls without thickness inside the solid were dropped"},
+    {"flipped_edges", "facet without area was resolved by flipping its long side",
+     "facets without area were resolved by flipping their long sides"},
+    {"turned_facets", "facet was turned over to agree with its neighbours",
+     "facets were turned over to agree with their neighbours"},
+    {"separated_edges", "edge with more than two facets was separated",
+     "edges with more than two facets were separated"},
+    {"separated_vertices", "vertex was doubled where surfaces only touch",
+     "vertices were doubled where surfaces only touch"},
+    {"turned_shells", "shell that was inside out was turned over",
+     "shells that were inside out were turned over"},
+    {"dropped_vertices", "vertex that no facet used was dropped", "vertices that no facet used were dropped"},
+}};
+
+const Wording& wording_of(RepairKind kind) { return wordings[static_cast<std::size_t>(kind)]; }
+
+void note(RepairReport& report, RepairKind kind, RepairDone done) {
+    if (done.count == 0) return;
+    std::sort(done.faces.begin(), done.faces.end());
+    done.faces.erase(std::unique(done.faces.begin(), done.faces.end()), done.faces.end());
+    const Wording& wording = wording_of(kind);
+    report.steps.push_back(
+        {kind, done.count, std::move(done.faces),
+         std::to_string(done.count) + " " + (done.count == 1 ? wording.one : wording.many)});
+}
+
+/// The lattice position of every used vertex.
+Status snap_used(RepairSoup& soup) {
+    const std::vector<bool> used = used_vertices(soup.triangles, soup.vertices.size());
+    Box3 bounds;
+    for (std::size_t vertex = 0; vertex < soup.vertices.size(); ++vertex) {
+        if (!used[vertex]) continue;
+        if (!is_finite(soup.vertices[vertex]))
+            return Error{ErrorCode::bad_input, "a vertex of a facet is not finite", {}};
+        bounds.add(soup.vertices[vertex]);
+    }
+    soup.points.resize(soup.vertices.size());
+    if (bounds.empty()) return Done{};
+    const Result<exact::Lattice> lattice = exact::Lattice::fit(bounds);
+    if (!lattice) return lattice.error();
+    for (std::size_t vertex = 0; vertex < soup.vertices.size(); ++vertex)
+        if (used[vertex]) soup.points[vertex] = lattice->snap(soup.vertices[vertex]);
+    return Done{};
+}
+
+std::uint64_t drop_unused_vertices(RepairSoup& soup) {
+    const std::vector<bool> used = used_vertices(soup.triangles, soup.vertices.size());
+    std::vector<VertexIndex> index(soup.vertices.size());
+    std::vector<Vec3> kept;
+    for (std::size_t vertex = 0; vertex < index.size(); ++vertex) {
+        index[vertex] = static_cast<VertexIndex>(kept.size());
+        if (used[vertex]) kept.push_back(soup.vertices[vertex]);
+    }
+    for (Triangle& t : soup.triangles)
+        for (VertexIndex& vertex : t) vertex = index[vertex];
+    const std::uint64_t dropped = soup.vertices.size() - kept.size();
+    soup.vertices = std::move(kept);
+    return dropped;
+}
+
+}  // namespace
+
+std::string_view name_of(RepairKind kind) { return wording_of(kind).name; }
+
+std::string RepairReport::describe() const {
+    if (steps.empty()) return "Nothing was to be repaired.\n";
+    std::string text;
+    for (const RepairStep& step : steps) text += step.sentence + ".\n";
+    return text;
+}
+
+Result<Repaired> repair(const Mesh& mesh, const Context& context) {
+    Repaired result;
+    RepairReport& report = result.report;
+    RepairSoup soup;
+    {
+        Mesh welded = weld(mesh);
+        // Vertices that an earlier repair has doubled are merged here and doubled again below, to the same mesh.
+        soup.vertices = std::move(welded.vertices);
+        soup.triangles = std::move(welded.triangles);
+        soup.origin.resize(soup.triangles.size());
+        std::iota(soup.origin.begin(), soup.origin.end(), FaceIndex{0});
+    }
+    RepairDone merged{mesh.vertices.size() - soup.vertices.size(), {}};
+    const Status snapped = snap_used(soup);
+    if (!snapped) return snapped.error();
+
+    RepairReport later;
+    note(later, RepairKind::dropped_collapsed_facets, drop_collapsed_facets(soup));
+    note(later, RepairKind::dropped_duplicate_facets, drop_duplicate_facets(soup));
+    note(later, RepairKind::dropped_inner_walls, drop_inner_walls(soup));
+    note(later, RepairKind::flipped_edges, flip_needles(soup));
+    if (context.cancelled()) return Context::cancelled_error();
+    std::vector<bool> mixed;
+    note(later, RepairKind::turned_facets, orient_neighbours(soup, mixed));
+    RepairDone doubled;
+    RepairDone separated = separate_edges(soup, doubled);
+    if (context.cancelled()) return Context::cancelled_error();
+    RepairDone turned = turn_shells(soup, mixed);
+
+    note(report, RepairKind::merged_vertices, std::move(merged));
+    report.steps.insert(report.steps.end(), later.steps.begin(), later.steps.end());
+    note(report, RepairKind::separated_edges, std::move(separated));
+    note(report, RepairKind::separated_vertices, std::move(doubled));
+    note(report, RepairKind::turned_shells, std::move(turned));
+    note(report, RepairKind::dropped_vertices, {drop_unused_vertices(soup), {}});
+
+    for (const FaceIndex face : soup.origin)
+        result.mesh.sources.push_back(mesh.sources.empty() ? Source{0, face} : mesh.sources[face]);
+    result.mesh.vertices = std::move(soup.vertices);
+    result.mesh.triangles = std::move(soup.triangles);
+    return result;
+}
+
+}  // namespace octavo::mesh

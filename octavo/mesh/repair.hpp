@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <octavo/base/context.hpp>
+#include <octavo/base/result.hpp>
+#include <octavo/mesh/mesh.hpp>
+
+// Mends what can be mended without guessing, and says what it did.
+//
+// No vertex moves, no hole is filled and nothing is cut: the surface stays the same set of points, but for walls
+// of no thickness inside a solid. In this order:
+//
+//  1. Vertices at bit-equal positions become one; facets that then name a vertex twice are dropped.
+//  2. Of facets with the same corners the same way round, one stays. Facets back to back cancel where they are a wall
+//     inside (every edge of the wall's rim has other facets); sheets that are double-sided as a whole stay, as no one
+//     knows what they mean.
+//  3. A facet without area is a vertex on the long side of its neighbour: the side is flipped, which splits the
+//     neighbour at the vertex and opens nothing. Where that side has no or several neighbours the facet stays.
+//  4. Facets are turned so that neighbours agree, as few as possible; surfaces with one side only stay.
+//  5. Edges with four facets and more are separated into pairs, if their facets alternate round the edge: then it is
+//     certain which bound the same solid. Surfaces that touch in a vertex get one each. Both repeat positions.
+//  6. Shells that are inside out are turned, together with the shells inside them.
+//  7. Vertices that no facet uses are dropped.
+//
+// repair(repair(x)) is repair(x).
+
+namespace octavo::mesh {
+
+enum class RepairKind : std::uint8_t {
+    merged_vertices,
+    dropped_collapsed_facets,  ///< they named a vertex twice
+    dropped_duplicate_facets,
+    dropped_inner_walls,  ///< facets that were back to back
+    flipped_edges,        ///< at facets without area
+    turned_facets,
+    separated_edges,
+    separated_vertices,
+    turned_shells,
+    dropped_vertices,
+};
+
+/// "merged_vertices" and so on.
+std::string_view name_of(RepairKind kind);
+
+struct RepairStep {
+    RepairKind kind = RepairKind::merged_vertices;
+    std::uint64_t count = 0;
+    std::vector<FaceIndex>
+        faces;  ///< facets of the input that were concerned, ascending; empty where vertices were
+    std::string sentence;
+};
+
+struct RepairReport {
+    std::vector<RepairStep> steps;  ///< those that did something, in order; empty when nothing was to be done
+
+    std::uint64_t count(RepairKind kind) const {
+        for (const RepairStep& step : steps)
+            if (step.kind == kind) return step.count;
+        return 0;
+    }
+    std::string describe() const;
+};
+
+struct Repaired {
+    Mesh mesh;  ///< `sources` are those of the input, or {0, facet of the input}
+    RepairReport report;
+};
+
+/// Errors: as validate(); cancelled.
+Result<Repaired> repair(const Mesh& mesh, const Context& context = {});
+
+}  // namespace octavo::mesh
