@@ -38,6 +38,7 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     add_info(*this);
     add_check(*this);
     add_render(*this);
+    add_repair(*this);
     add_convert(*this);
     add_boolean(*this);
     add_shape(*this);

@@ -186,7 +186,7 @@ TEST_F(Verbs, ContainsAnswersInOnAndOut) {
     EXPECT_EQ(octavo("contains cube.stl points.csv").out, read("sides.csv"));
 }
 
-TEST_F(Verbs, DISABLED_RepairListsWhatItDid) {
+TEST_F(Verbs, RepairListsWhatItDid) {
     std::string doubled(open_cube);
     doubled.replace(doubled.find("8 5 0"), 5, "8 7 0");
     write("doubled.off", doubled + "4 4 5 6 7\n4 4 5 6 7\n");

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "model.hpp"
+#include "program.hpp"
+#include "report_facts.hpp"
+#include <octavo/mesh/repair.hpp>
+#include <octavo/mesh/validate.hpp>
+
+// `octavo repair IN -o OUT`: mends what can be mended without guessing, lists what it did and what is left.
+
+namespace octavo::cli {
+namespace {
+
+struct RepairOptions {
+    std::string input, output, from, to;
+};
+
+Json steps_of(const mesh::RepairReport& report) {
+    Json steps = Json::array();
+    for (const mesh::RepairStep& step : report.steps)
+        steps.push_back({{"kind", mesh::name_of(step.kind)},
+                         {"count", step.count},
+                         {"faces", step.faces},
+                         {"sentence", step.sentence}});
+    return steps;
+}
+
+Result<ExitCode> repair(Session& session, const RepairOptions& options) {
+    const Context context = session.context();
+    if (same_file(options.input, options.output)) return would_overwrite(options.output);
+    Result<io::ReadMesh> read = read_mesh(session, context, options.input, options.from);
+    if (!read) return std::move(read).error();
+    Result<mesh::Repaired> repaired =
+        session.timed("repair", [&] { return mesh::repair(read->mesh, context); });
+    if (!repaired) return in_file(std::move(repaired).error(), options.input);
+    Result<mesh::Report> after =
+        session.timed("validate", [&] { return mesh::validate(repaired->mesh, {}, context); });
+    if (!after) return in_file(std::move(after).error(), options.input);
+
+    io::WriteOptions writing;
+    writing.format = options.to;
+    if (!read->unit.empty()) writing.unit = read->unit;
+    Result<io::WriteReport> written = write_mesh(session, context, options.output, repaired->mesh, writing);
+    if (!written) return std::move(written).error();
+
+    session.result = json_of(*after);
+    session.result["repairs"] = steps_of(repaired->report);
+    session.text = repaired->report.describe() + after->describe();
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_repair(Program& program) {
+    const auto options = std::make_shared<RepairOptions>();
+    CLI::App* verb = program.verb("repair", "Edit", "Mend what can be mended without guessing, and list it",
+                                  [options](Session& session) { return repair(session, *options); });
+    verb->add_option("IN", options->input, "The mesh to mend; - is stdin")->required()->type_name("FILE");
+    verb->add_option("-o,--output", options->output, "The mesh to write; - is stdout")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("--from", options->from, "Format of IN, instead of by its extension")
+        ->type_name("FORMAT");
+    verb->add_option("--to", options->to, "Format of the output, instead of by its extension")
+        ->type_name("FORMAT");
+}
+
+}  // namespace octavo::cli
