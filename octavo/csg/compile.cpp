@@ -43,6 +43,36 @@ bool keeps_axes(const Affine& map) {
     return true;
 }
 
+/// The edges of a convex mesh, to find its farthest vertex in a direction by walking uphill.
+class Neighbours {
+  public:
+    explicit Neighbours(const mesh::Mesh& mesh)
+        : begin_(mesh.vertices.size() + 1), to_(3 * mesh.triangles.size()) {
+        for (const mesh::Triangle& t : mesh.triangles)
+            for (const mesh::VertexIndex v : t) ++begin_[v + 1];
+        for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+        for (const mesh::Triangle& t : mesh.triangles)
+            for (std::size_t i = 0; i < 3; ++i) to_[next[t[i]]++] = t[(i + 1) % 3];
+    }
+
+    mesh::VertexIndex farthest(const std::vector<Vec3>& points, Vec3 direction,
+                               mesh::VertexIndex start) const {
+        mesh::VertexIndex best = start;
+        for (bool moved = true; moved;) {
+            moved = false;
+            const mesh::VertexIndex here = best;
+            for (std::uint32_t i = begin_[here]; i < begin_[here + 1]; ++i)
+                if (dot(direction, points[to_[i]]) > dot(direction, points[best]))
+                    best = to_[i], moved = true;
+        }
+        return best;
+    }
+
+  private:
+    std::vector<std::uint32_t> begin_, to_;
+};
+
 /// Turns the leaves of a normal form into leaves of a program, one at a time.
 class LeafCompiler {
   public:
@@ -211,16 +241,14 @@ class LeafCompiler {
         std::vector<Vec3> points;
         points.reserve(mesh.vertices.size());
         for (const Vec3& vertex : mesh.vertices) points.push_back(place(vertex));
+        const Neighbours neighbours(mesh);
         for (const mesh::Triangle& triangle : mesh.triangles) {
             const Vec3 a = points[triangle[0]], b = points[triangle[1]], c = points[triangle[2]];
             const Vec3 inward = -turn * cross(b - a, c - a);
             if (inward == Vec3{}) continue;
             // The plane is moved out to the farthest vertex: the normal of a sliver may point anywhere near its
             // true direction, and a plane that leaves all vertices inside cannot cut anything off.
-            const Vec3* lowest = &a;
-            for (const Vec3& point : points)
-                if (dot(inward, point - *lowest) < 0) lowest = &point;
-            add_plane(inward, to_lattice(*lowest));
+            add_plane(inward, to_lattice(points[neighbours.farthest(points, -inward, triangle[0])]));
         }
         merge_planes();
         Vec3 mean;

@@ -31,7 +31,7 @@ struct FlatLeaf {
     std::vector<Cut> cuts;  // of a convex one
 };
 
-std::optional<FlatLeaf> flat_leaf(const PlacedPrimitive& leaf) {
+std::optional<FlatLeaf> flat_leaf(const PlacedPrimitive& leaf, std::size_t most_facets) {
     FlatLeaf flat;
     if (const auto* cuboid = std::get_if<Cuboid>(&leaf.primitive)) {
         flat.mesh = placed(cuboid_mesh(cuboid->low, cuboid->high), leaf.place);
@@ -41,7 +41,7 @@ std::optional<FlatLeaf> flat_leaf(const PlacedPrimitive& leaf) {
     } else {
         return {};
     }
-    if (!flat.convex) return flat;
+    if (!flat.convex || flat.mesh.triangles.size() > most_facets) return flat;
     for (const mesh::Triangle& triangle : flat.mesh.triangles) {
         const Vec3 a = flat.mesh.vertices[triangle[0]];
         Vec3 normal = cross(flat.mesh.vertices[triangle[1]] - a, flat.mesh.vertices[triangle[2]] - a);
@@ -130,10 +130,13 @@ class Decomposer {
     Status add_leaf(const NormalToken& token, const ConvexPiece& cell, std::vector<ConvexPiece>& to) {
         std::unique_ptr<FlatLeaf>& leaf = leaves_[token.leaf];
         if (!leaf) {
-            std::optional<FlatLeaf> flat = flat_leaf(form_.leaves[token.leaf]);
+            std::optional<FlatLeaf> flat = flat_leaf(form_.leaves[token.leaf], options_.most_facets);
             if (!flat) return unsupported("a hull, sum or projection of a curved or unbounded primitive");
             leaf = std::make_unique<FlatLeaf>(std::move(*flat));
         }
+        if (leaf->mesh.triangles.size() > options_.most_facets)
+            return Error{
+                ErrorCode::limit, "a hull, sum or projection of a primitive with too many facets", {}};
         if (!leaf->convex) return add_mesh(*leaf, token.complemented, cell, to);
         ConvexPiece rest = cell;
         for (const Cut& cut : leaf->cuts) {
@@ -344,6 +347,8 @@ Result<Expr> minkowski_sum(const Expr& a, const Expr& b, const Context& context)
     for (const ConvexPiece& p : *pieces_a)
         for (const ConvexPiece& q : *pieces_b) {
             if (context.cancelled()) return Context::cancelled_error();
+            if (p.corners.size() * q.corners.size() > 20'000'000)
+                return Error{ErrorCode::limit, "a Minkowski sum of bodies with too many corners", {}};
             std::vector<Vec3> points;
             points.reserve(p.corners.size() * q.corners.size());
             for (const Vec3& x : p.corners)

@@ -209,8 +209,9 @@ Result<mesh::Mesh> rotate_extrude(const Region& region, const RotateExtrude& opt
         }
     }
     if (!whole) {
-        add_cap(mesh, region, 0, flipped);
-        add_cap(mesh, region, static_cast<std::size_t>(segments) * count, !flipped);
+        // Seen from −y, where the sweep begins, the profile runs counter-clockwise.
+        add_cap(mesh, region, 0, !flipped);
+        add_cap(mesh, region, static_cast<std::size_t>(segments) * count, flipped);
     }
     return mesh;
 }

@@ -32,7 +32,9 @@ struct CsgReadOptions {
     /// Limits against hostile files: nodes, and numbers in all vectors together. A node takes some 150 bytes in
     /// all, a number 16.
     std::uint64_t most_nodes = 20'000'000;
-    std::uint64_t most_values = 200'000'000;
+    std::uint64_t most_values = 50'000'000;
+    /// Vertices of one faceted primitive or extrusion.
+    std::uint64_t most_vertices = 10'000'000;
 };
 
 struct CsgFile {

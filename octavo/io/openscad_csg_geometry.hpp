@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct Scope {
     bool faceted;  ///< round things must be polyhedra here
 
     void warn(const Node& node, const std::string& sentence) const;
+    /// Whether a mesh of so many vertices is too large; then the error says so.
+    std::optional<Error> too_large(const Node& node, double vertices) const;
     /// An error that names the node; with `skip_unsupported` a warning and empty geometry.
     Result<Geometry> unsupported(const Node& node, const std::string& why) const;
 };

@@ -258,6 +258,12 @@ Result<Geometry> offset(const Node& node, Children children, const Scope& scope)
     return Geometry::of(csg::offset(geometry.region, distance, options));
 }
 
+double corners_in(const csg::Region& region) {
+    double count = 0;
+    for (const csg::Contour& contour : region.contours) count += static_cast<double>(contour.size());
+    return count;
+}
+
 Result<Geometry> linear_extrude(const Node& node, Children children, const Scope& scope) {
     Parameters p(scope.syntax, node, {"height"});
     if (p.has("file")) return scope.unsupported(node, "files of flat shapes are not read");
@@ -278,6 +284,9 @@ Result<Geometry> linear_extrude(const Node& node, Children children, const Scope
     constexpr double most = 100'000;
     options.slices = slices ? static_cast<int>(std::clamp(*slices, 1.0, most))
                             : csg::slices_of(geometry.region, options, roundness);
+    if (std::optional<Error> error =
+            scope.too_large(node, corners_in(geometry.region) * (options.slices + 1)))
+        return *error;
     mesh::Mesh mesh = csg::linear_extrude(geometry.region, options);
     if (mesh.triangles.empty()) return Geometry::none();
     return Geometry::of(csg::Expr(csg::as_polyhedron(std::move(mesh))));
@@ -306,6 +315,9 @@ Result<Geometry> rotate_extrude(const Node& node, Children children, const Scope
     options.angle = angle;
     options.segments =
         std::max(static_cast<int>(csg::segments_of(radius, roundness) * std::fabs(angle) / 360), 1);
+    if (std::optional<Error> error =
+            scope.too_large(node, corners_in(geometry.region) * (options.segments + 1)))
+        return *error;
     Result<mesh::Mesh> mesh = csg::rotate_extrude(geometry.region, options);
     if (!mesh) return place(mesh.error());
     if (mesh->triangles.empty()) return Geometry::none();
@@ -323,6 +335,14 @@ void Scope::warn(const Node& node, const std::string& sentence) const {
     constexpr std::size_t most = 100;
     if (warnings.size() < most) warnings.push_back(syntax.place_text(node.place) + ": " + sentence);
     if (warnings.size() == most) warnings.push_back("further warnings are left out");
+}
+
+std::optional<Error> Scope::too_large(const Node& node, double vertices) const {
+    if (vertices <= static_cast<double>(options.most_vertices)) return {};
+    return syntax.error_at(node.place,
+                           std::string(node.name) + "(…) would have more than " +
+                               std::to_string(options.most_vertices) + " vertices",
+                           ErrorCode::limit);
 }
 
 Result<Geometry> Scope::unsupported(const Node& node, const std::string& why) const {

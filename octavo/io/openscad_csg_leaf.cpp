@@ -44,8 +44,9 @@ Result<Geometry> sphere(const Node& node, const Scope& scope) {
     const double r = radius(p, "r", "d", 1);
     const int segments = csg::segments_of(r, p.roundness());
     if (p.error() || !(r > 0)) return finish(p, Geometry::none());
-    if (scope.faceted) return Geometry::of(convex(csg::faceted_ball(r, segments)));
-    return Geometry::of(csg::Expr(csg::Ball{r}));
+    if (!scope.faceted) return Geometry::of(csg::Expr(csg::Ball{r}));
+    if (std::optional<Error> error = scope.too_large(node, 0.5 * segments * segments)) return *error;
+    return Geometry::of(convex(csg::faceted_ball(r, segments)));
 }
 
 Result<Geometry> cylinder(const Node& node, const Scope& scope) {
