@@ -38,20 +38,14 @@ Result<io::WriteReport> write_mesh(Session& session, const Context& context, con
     return report;
 }
 
-Result<mesh::LatticeMesh> snap(Session& session, const mesh::Mesh& mesh) {
+Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh) {
     Result<mesh::Snapped> snapped = session.timed("snap", [&] { return mesh::snap(mesh); });
     if (!snapped) return std::move(snapped).error();
-    // Half a unit is the most that rounding can do per axis; when that is less than a float of this size can tell,
-    // there is nothing worth a warning.
-    const double size = length(mesh.bounds().extents());
-    if (snapped->report.largest_displacement > size * 6e-8)
-        session.warn(fmt::format("rounding to the lattice moved {} vertices, by at most {:.3g}",
-                                 snapped->report.moved_vertices, snapped->report.largest_displacement));
     // Inside is where the surface winds about a point at least once: inside out, it winds minus once, or not at all.
     if (mesh::exact_volume6(snapped->mesh) < 0)
         session.warn(
             "the facets point inwards, so hardly anything counts as inside; octavo repair turns them over");
-    return std::move(snapped->mesh);
+    return snapped;
 }
 
 Error in_file(Error error, const std::string& path) {

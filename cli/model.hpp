@@ -26,9 +26,8 @@ Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const s
 Result<io::WriteReport> write_mesh(Session& session, const Context& context, const std::string& path,
                                    const mesh::Mesh& mesh, const io::WriteOptions& options = {});
 
-/// Snaps a mesh to its own lattice. Warns by how much vertices moved if they moved more than float files round, and
-/// when the surface is inside out.
-Result<mesh::LatticeMesh> snap(Session& session, const mesh::Mesh& mesh);
+/// Snaps a mesh to its own lattice. Warns when the surface is inside out.
+Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh);
 
 /// The same error, with the file that it is about.
 Error in_file(Error error, const std::string& path);

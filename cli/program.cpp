@@ -18,8 +18,16 @@ constexpr const char* footer =
     "\n"
     "Help on one verb: octavo VERB --help";
 
-int usage_error(const CLI::App& app, const CLI::ParseError& error) {
-    fmt::print(stderr, "octavo: {}\n", error.what());
+/// What is wrong with the command line, in the words of this program.
+std::string sentence_of(const CLI::ParseError& error, int argc, const char* const* argv) {
+    if (error.get_name() != "RequiredError" ||
+        std::string_view(error.what()).find("subcommand") == std::string_view::npos)
+        return error.what();
+    return argc > 1 ? fmt::format("there is no verb {}", argv[1]) : "a verb is missing";
+}
+
+int usage_error(const CLI::App& app, const std::string& sentence) {
+    fmt::print(stderr, "octavo: {}\n", sentence);
     const CLI::App* at = &app;
     for (const CLI::App* verb : app.get_subcommands()) at = verb;
     fmt::print(stderr, "Try: octavo {}--help\n", at == &app ? "" : at->get_name() + " ");
@@ -87,7 +95,7 @@ int Program::main(int argc, const char* const* argv) {
     } catch (const CLI::Success& success) {  // --help and --version
         return app_.exit(success);
     } catch (const CLI::ParseError& error) {
-        return usage_error(app_, error);
+        return usage_error(app_, sentence_of(error, argc, argv));
     }
     try {
         return session_.finish(chosen_(session_));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -26,12 +27,24 @@ Result<std::vector<query::Side>> sides_of(Session& session, const Context& conte
     Result<io::ReadPoints> points = session.timed(
         "read", [&] { return io::read_points(options.points, {options.points_format}, context); });
     if (!points) return std::move(points).error();
-    Result<mesh::LatticeMesh> snapped = snap(session, read->mesh);
+    const auto nowhere = std::count_if(points->points.begin(), points->points.end(), [](Vec3 p) {
+        return std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z);
+    });
+    if (nowhere)
+        session.warn(fmt::format("{} points have a coordinate that is not a number; they are told as outside",
+                                 nowhere));
+    Result<mesh::Snapped> snapped = snap(session, read->mesh);
     if (!snapped) return in_file(std::move(snapped).error(), options.model);
+    if (snapped->report.moved_vertices)
+        session.warn(fmt::format(
+            "{} of {} vertices were rounded to the lattice, by at most {:.3g}; the answers are exact for "
+            "the rounded solid",
+            grouped(snapped->report.moved_vertices), grouped(read->mesh.vertices.size()),
+            snapped->report.largest_displacement));
     query::InsideOptions asking;
     asking.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
     Result<query::InsideQuery> inside =
-        session.timed("build", [&] { return query::InsideQuery::build(*snapped, asking, context); });
+        session.timed("build", [&] { return query::InsideQuery::build(snapped->mesh, asking, context); });
     if (!inside) return in_file(std::move(inside).error(), options.model);
     return session.timed("query", [&] { return (*inside)(points->points, context); });
 }

@@ -7,6 +7,7 @@
 
 #include "model.hpp"
 #include "octree_facts.hpp"
+#include "option_checks.hpp"
 #include "program.hpp"
 #include <octavo/classic/csg_build.hpp>
 #include <octavo/classic/from_mesh.hpp>
@@ -33,6 +34,7 @@ struct OctreeOptions {
 struct Grown {
     octree::Octree octree;
     std::uint64_t peak_nodes = 0, primitive_tests = 0;
+    double snap_displacement = 0;  ///< how far rounding to the lattice moved a vertex of a mesh at most
 };
 
 /// The least depth whose cells are no larger than `precision`, in world units.
@@ -57,21 +59,22 @@ void warn_about(Session& session, const classic::BuildReport& report) {
 Result<Grown> grow_from_mesh(Session& session, const Context& context, const OctreeOptions& options) {
     Result<io::ReadMesh> read = read_mesh(session, context, options.input, options.format);
     if (!read) return std::move(read).error();
-    Result<mesh::LatticeMesh> snapped = snap(session, read->mesh);
+    Result<mesh::Snapped> snapped = snap(session, read->mesh);
     if (!snapped) return in_file(std::move(snapped).error(), options.input);
     classic::BuildOptions building;
     building.depth = options.depth;
     building.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
     if (options.precision > 0) {
-        Result<int> depth = depth_for(options.precision, snapped->lattice);
+        Result<int> depth = depth_for(options.precision, snapped->mesh.lattice);
         if (!depth) return std::move(depth).error();
         building.depth = *depth;
     }
     Result<classic::Built> built =
-        session.timed("build", [&] { return classic::build(*snapped, building, context); });
+        session.timed("build", [&] { return classic::build(snapped->mesh, building, context); });
     if (!built) return in_file(std::move(built).error(), options.input);
     warn_about(session, built->report);
-    return Grown{std::move(built->octree), built->report.peak_nodes, built->report.primitive_tests};
+    return Grown{std::move(built->octree), built->report.peak_nodes, built->report.primitive_tests,
+                 snapped->report.largest_displacement};
 }
 
 Result<Grown> grow_from_csg(Session& session, const Context& context, const OctreeOptions& options) {
@@ -90,7 +93,7 @@ Result<Grown> grow_from_csg(Session& session, const Context& context, const Octr
     Result<classic::CsgOctree> built =
         session.timed("build", [&] { return classic::build(file->expression, building, context); });
     if (!built) return in_file(std::move(built).error(), options.input);
-    return Grown{std::move(built->octree), built->stats.peak_nodes, built->stats.primitive_tests};
+    return Grown{std::move(built->octree), built->stats.peak_nodes, built->stats.primitive_tests, 0};
 }
 
 /// Writes the tree in the form that the extension of `path` asks for.
@@ -122,7 +125,11 @@ Result<ExitCode> make_octree(Session& session, const OctreeOptions& options) {
     session.result = json_of(built->octree, bytes);
     session.result["peak_nodes"] = built->peak_nodes;
     session.result["primitive_tests"] = built->primitive_tests;
+    session.result["snap_displacement"] = built->snap_displacement;
     session.text = text_of(built->octree, bytes);
+    if (built->snap_displacement > 0)
+        session.text += fmt::format("rounding   moved vertices to the lattice by at most {:.3g}\n",
+                                    built->snap_displacement);
     return ExitCode::ok;
 }
 
@@ -143,7 +150,7 @@ void add_octree(Program& program) {
             ->check(CLI::Range(0, octree::max_level))
             ->type_name("N");
     verb->add_option("--precision", options->precision, "Cells no larger than this, in the model's units")
-        ->check(CLI::PositiveNumber)
+        ->check(check_positive)
         ->type_name("LENGTH")
         ->excludes(depth);
     verb->add_option("--open", options->open, "An open surface: reject it, or close it and go by winding")

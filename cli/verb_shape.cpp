@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "model.hpp"
+#include "option_checks.hpp"
 #include "program.hpp"
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/mesh/transform.hpp>
@@ -115,7 +116,7 @@ void add_shape(Program& program) {
     verb->add_option("--detail", options->detail, "How finely it is divided: segments, teeth or levels")
         ->type_name("N");
     verb->add_option("--size", options->size, "Factor by which it is scaled")
-        ->check(CLI::PositiveNumber)
+        ->check(check_positive)
         ->type_name("FACTOR");
 }
 

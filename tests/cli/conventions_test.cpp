@@ -20,14 +20,19 @@ TEST_F(Conventions, HelpAndVersionSucceed) {
 }
 
 TEST_F(Conventions, AWrongCommandLineIsExitCode2WithAHintAndEmptyStdout) {
-    for (const char* arguments : {"", "frobnicate", "info", "info a.off --no-such-option",
-                                  "octree a.off --depth 22", "octree a.off --depth x", "shape dodo -o a.stl",
-                                  "render a.off -o a.png --size 9", "render a.off -o a.png --cut w"}) {
+    for (const char* arguments :
+         {"", "frobnicate", "info", "info a.off --no-such-option", "octree a.off --depth 22",
+          "octree a.off --depth x", "octree a.off --precision nan", "octree a.off --precision 0",
+          "shape dodo -o a.stl", "render a.off -o a.png --size 9", "render a.off -o a.png --cut w"}) {
         const Ran ran = octavo(arguments);
         EXPECT_EQ(ran.exit_code, 2) << arguments;
         EXPECT_EQ(ran.out, "") << arguments;
         EXPECT_NE(ran.err.find("Try: octavo"), std::string::npos) << arguments;
     }
+}
+
+TEST_F(Conventions, AnUnknownVerbIsNamed) {
+    EXPECT_NE(octavo("frobnicate a.off").err.find("there is no verb frobnicate"), std::string::npos);
 }
 
 TEST_F(Conventions, ABadFileIsExitCode3WithTheFileAndTheLine) {

@@ -186,6 +186,14 @@ TEST_F(Verbs, ContainsAnswersInOnAndOut) {
     EXPECT_EQ(octavo("contains cube.stl points.csv").out, read("sides.csv"));
 }
 
+TEST_F(Verbs, ContainsWarnsOfPointsThatAreNowhereAndOfRoundedVertices) {
+    ASSERT_EQ(octavo("shape sphere --detail 3 -o ball.ply").exit_code, 0);
+    write("points.csv", "nan,0,0\n0,0,0\ninf,0,0\n");
+    const json answer = octavo("contains ball.ply points.csv --json").json();
+    EXPECT_EQ(answer["result"]["outside"], 2);
+    EXPECT_EQ(answer["warnings"].size(), 2U) << answer["warnings"];
+}
+
 TEST_F(Verbs, RepairListsWhatItDid) {
     std::string doubled(open_cube);
     doubled.replace(doubled.find("8 5 0"), 5, "8 7 0");
