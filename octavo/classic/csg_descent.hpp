@@ -61,6 +61,7 @@ class CsgDescent {
 
         csg::Pruner pruner;
         csg::LocalArrangement arrangement;
+        csg::PointSampler sampler;
         std::array<std::vector<std::uint32_t>, octree::max_level + 2> buffers;
         std::uint64_t octants = 0, resolved = 0;
 
@@ -124,12 +125,14 @@ class CsgDescent {
                 if (child.node == octree::Node::gray) child = {octree::Node::split, description};
             return;
         }
+        std::uint8_t settled = 0;
+        if (last) settled = csg::octants_on_both_sides(workspace.sampler.sample(program_, words, parent));
         const auto buffer = static_cast<std::uint32_t>(parent.level + 1);
         std::vector<std::uint32_t>& to = workspace.buffers[buffer];
         to.clear();
         for (int i = 0; i < 8; ++i) {
             octree::Restricted<Description>& child = children[static_cast<std::size_t>(i)];
-            if (child.node != octree::Node::gray) continue;
+            if (child.node != octree::Node::gray || (settled >> i & 1)) continue;
             const std::size_t begin = to.size();
             workspace.pruner.prune(words, i, to);
             if (last) {

@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include <octavo/csg/classify.hpp>
 #include <octavo/csg/convex_overlap.hpp>
 #include <octavo/csg/flat_patch.hpp>
@@ -12,10 +8,6 @@ namespace octavo::csg {
 namespace {
 
 using octree::Color;
-
-constexpr std::uint32_t all = ~std::uint32_t{0};
-// The corners of the cell, the middles of its edges and faces, and its own: 3 × 3 × 3 points, x fastest.
-constexpr std::uint32_t points = (std::uint32_t{1} << 27) - 1;
 
 LatticePlane axis_plane(int axis, std::int32_t at) {
     LatticePlane plane;
@@ -35,9 +27,9 @@ octree::Color LocalArrangement::resolve(const Program& program, std::span<const 
     count_ = 0;
     if (!read(words)) return Color::gray;
 
-    for (std::size_t s = 0; s < count_; ++s) values_[s] = sample(surfaces_[s]);
-    const Trials sampled = evaluate();
-    if ((sampled.white & points) && (sampled.black & points)) return Color::gray;
+    for (std::size_t s = 0; s < count_; ++s) values_[s] = sample_surface(surfaces_[s]);
+    const PointColors sampled = evaluate();
+    if (sampled.outside && sampled.inside) return Color::gray;
 
     values_ = {};
     black_ = white_ = false;
@@ -176,97 +168,43 @@ bool LocalArrangement::add_literal(std::size_t surface, bool value) {
 
 // --- Evaluating ----------------------------------------------------------------------------------------------
 
-/// On which side of a surface the 27 points of the cell lie, where that is beyond doubt. A corner strictly on one
-/// side has points of the cell's interior near it on that side as well.
-LocalArrangement::Trials LocalArrangement::sample(const LocalSurface& surface) const {
-    Trials trials;
-    const std::int32_t half = cell_.side() / 2;
-    if (surface.kind == LocalSurface::Kind::plane) {
-        const LatticePlane& plane = surface.plane;
-        std::int64_t z = plane.at(cell_.low.x, cell_.low.y, cell_.low.z);
-        for (std::uint32_t k = 0, bit = 1; k < 3; ++k, z += plane.normal[2] * half) {
-            std::int64_t y = z;
-            for (int j = 0; j < 3; ++j, y += plane.normal[1] * half) {
-                std::int64_t x = y;
-                for (int i = 0; i < 3; ++i, x += plane.normal[0] * half, bit <<= 1) {
-                    if (x > 0) trials.black |= bit;
-                    if (x < 0) trials.white |= bit;
-                }
-            }
-        }
-    } else if (surface.kind == LocalSurface::Kind::cone) {
-        const SecondOrderCone& cone = program_->cones[surface.index];
-        std::array<double, 3> d;
-        double distance = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            d[a] = static_cast<double>(cell_.low[axis]) - cone.origin[a];
-            distance = std::max(distance, std::fabs(d[a]));
-        }
-        const double error = cone.error(distance + 2 * half);
-        std::array<double, 27> excess;
-        for (std::size_t p = 0; p < 27; ++p)
-            excess[p] = cone.excess(d[0] + static_cast<double>(p % 3) * half,
-                                    d[1] + static_cast<double>(p / 3 % 3) * half,
-                                    d[2] + static_cast<double>(p / 9) * half);
-        for (std::size_t p = 0; p < 27; ++p) {
-            trials.black |= static_cast<std::uint32_t>(excess[p] < -error) << p;
-            trials.white |= static_cast<std::uint32_t>(excess[p] > error) << p;
-        }
-    }
-    return trials;
+PointColors LocalArrangement::sample_surface(const LocalSurface& surface) const {
+    if (surface.kind == LocalSurface::Kind::plane) return sample(surface.plane, cell_);
+    if (surface.kind == LocalSurface::Kind::cone) return sample(program_->cones[surface.index], cell_);
+    return {};
 }
 
-LocalArrangement::Trials LocalArrangement::trials_of(const Node& node) const {
-    if (node.kind == Node::Kind::constant) return node.complemented ? Trials{0, all} : Trials{all, 0};
-    Trials trials{0, all};
+PointColors LocalArrangement::points_of(const Node& node) const {
+    if (node.kind == Node::Kind::constant)
+        return node.complemented ? PointColors{0, PointColors::all} : PointColors{PointColors::all, 0};
+    PointColors points{0, PointColors::all};
     for (std::uint32_t i = 0; i < node.count; ++i) {
         const Literal literal = literals_[node.first + i];
-        const Trials value = values_[literal.surface];
-        trials.white |= literal.value ? value.white : value.black;
-        trials.black &= literal.value ? value.black : value.white;
+        const PointColors value = values_[literal.surface];
+        points = intersect(points, literal.value ? value : complement(value));
     }
-    if (node.complemented) std::swap(trials.white, trials.black);
-    return trials;
+    return node.complemented ? complement(points) : points;
 }
 
-LocalArrangement::Trials LocalArrangement::evaluate() {
+PointColors LocalArrangement::evaluate() {
     open_.clear();
-    Trials result;
-    const auto hand_up = [&](Trials value) {
-        if (open_.empty()) {
-            result = value;
-            return;
-        }
-        Open& around = open_.back();
-        Trials& sum = around.trials;
-        switch (word::operation(around.word)) {
-            case word::union_of:
-                sum = {sum.white & value.white, sum.black | value.black};
-                break;
-            case word::intersection:
-                sum = {sum.white | value.white, sum.black & value.black};
-                break;
-            default: {
-                const std::uint32_t known = (sum.white | sum.black) & (value.white | value.black);
-                const std::uint32_t odd = sum.black ^ value.black;
-                sum = {known & ~odd, known & odd};
-            }
-        }
+    PointColors result;
+    const auto hand_up = [&](PointColors points) {
+        if (open_.empty())
+            result = points;
+        else
+            open_.back().points = fold(open_.back().word, open_.back().points, points);
     };
     for (std::uint32_t at = 0; at < nodes_.size(); ++at) {
         const Node& node = nodes_[at];
-        if (node.kind == Node::Kind::operation) {
-            const bool full =
-                word::operation(node.word) == word::intersection || (node.word & word::even_bit);
-            open_.push_back({node.word, node.end, full ? Trials{0, all} : Trials{all, 0}});
-        } else {
-            hand_up(trials_of(node));
-        }
+        if (node.kind == Node::Kind::operation)
+            open_.push_back({node.word, node.end, neutral_points(node.word)});
+        else
+            hand_up(points_of(node));
         while (!open_.empty() && open_.back().end == at + 1) {
-            const Trials value = open_.back().trials;
+            const PointColors points = open_.back().points;
             open_.pop_back();
-            hand_up(value);
+            hand_up(points);
         }
     }
     return result;
@@ -276,9 +214,9 @@ LocalArrangement::Trials LocalArrangement::evaluate() {
 
 /// Colours of the regions in which the first `depth` surfaces have the signs chosen so far.
 void LocalArrangement::try_signs(std::size_t depth) {
-    const Trials value = evaluate();
-    if (value.black || value.white) {
-        (value.black ? black_ : white_) = true;
+    const PointColors value = evaluate();
+    if (value.inside || value.outside) {
+        (value.inside ? black_ : white_) = true;
         return;
     }
     if (depth == count_ || combinations_ >= most_combinations) {
@@ -286,7 +224,7 @@ void LocalArrangement::try_signs(std::size_t depth) {
         return;
     }
     for (const bool inside : {true, false}) {
-        values_[depth] = inside ? Trials{0, all} : Trials{all, 0};
+        values_[depth] = inside ? PointColors{0, PointColors::all} : PointColors{PointColors::all, 0};
         if (is_possible(depth + 1)) try_signs(depth + 1);
         if (black_ && white_) break;
     }
@@ -301,7 +239,7 @@ bool LocalArrangement::is_possible(std::size_t depth) {
     std::size_t plane_count = 0, cone_count = 0;
     for (std::size_t s = 0; s < depth; ++s) {
         const LocalSurface& surface = surfaces_[s];
-        const bool inside = values_[s].black != 0;
+        const bool inside = values_[s].inside != 0;
         if (surface.kind == LocalSurface::Kind::plane)
             planes[plane_count++] = inside ? surface.plane : surface.plane.flipped();
         else if (surface.kind == LocalSurface::Kind::cone && inside)

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <octavo/csg/point_samples.hpp>
 #include <octavo/csg/program.hpp>
 
 // Looks again at a cell that three-valued logic leaves gray.
@@ -59,13 +60,9 @@ class LocalArrangement {
         std::uint32_t end = 0;               // of an operation: one past its last node
         std::uint32_t first = 0, count = 0;  // literals
     };
-    /// Thirty-two trials at once: bits where the value is known to be false, and where true.
-    struct Trials {
-        std::uint32_t white = 0, black = 0;
-    };
     struct Open {
         std::uint32_t word, end;
-        Trials trials;
+        PointColors points;
     };
 
     bool read(std::span<const std::uint32_t> words);
@@ -78,9 +75,9 @@ class LocalArrangement {
     bool add_surface(const LocalSurface& surface);
     bool add_literal(std::size_t surface, bool value);
 
-    Trials evaluate();
-    Trials trials_of(const Node& node) const;
-    Trials sample(const LocalSurface& surface) const;
+    PointColors evaluate();
+    PointColors points_of(const Node& node) const;
+    PointColors sample_surface(const LocalSurface& surface) const;
     void try_signs(std::size_t depth);
     bool is_possible(std::size_t depth);
 
@@ -90,7 +87,8 @@ class LocalArrangement {
     std::vector<Literal> literals_;
     std::vector<Open> open_;
     std::array<LocalSurface, most_surfaces> surfaces_;
-    std::array<Trials, most_surfaces> values_{};
+    /// By surface: at the sample points, or everywhere when signs are tried.
+    std::array<PointColors, most_surfaces> values_{};
     std::size_t count_ = 0;
     bool black_ = false, white_ = false;
     int combinations_ = 0;
