@@ -6,6 +6,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <places.hpp>
 
 // Real models for tests. They are not part of the project: $OCTAVO_MODELS names their folder, else
 // ../shared/models beside the checkout is tried; a test that needs one skips, with a message, when it is not
@@ -15,7 +16,7 @@ namespace octavo::tests {
 
 inline std::filesystem::path models_folder() {
     if (const char* folder = std::getenv("OCTAVO_MODELS")) return folder;
-    return std::filesystem::path(OCTAVO_SOURCE_DIR) / ".." / "shared" / "models";
+    return std::filesystem::path(source_folder) / ".." / "shared" / "models";
 }
 
 }  // namespace octavo::tests

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <places.hpp>
 #include <sys/wait.h>
 
 // Runs the real program in a folder of its own, as a shell would.
@@ -47,15 +48,15 @@ class ProgramTest : public testing::Test {
 
     /// `arguments` as typed in a shell, in the test's folder, without a terminal.
     Ran octavo(const std::string& arguments) const {
-        const std::string command = "cd '" + folder_.string() + "' && " + OCTAVO_PROGRAM + " " + arguments +
-                                    " >.out 2>.err </dev/null";
+        const std::string command =
+            "cd '" + folder_.string() + "' && " + program + " " + arguments + " >.out 2>.err </dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
     }
     /// The same with `before` in front of the program, for example "cat x | ".
     Ran shell(const std::string& command) const {
         const std::string whole =
-            "cd '" + folder_.string() + "' && octavo=" + OCTAVO_PROGRAM + "; (" + command + ") >.out 2>.err";
+            "cd '" + folder_.string() + "' && octavo=" + program + "; (" + command + ") >.out 2>.err";
         const int status = std::system(whole.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
     }
