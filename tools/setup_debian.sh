@@ -11,7 +11,7 @@ packages=(g++ cmake ninja-build pkg-config libtbb-dev zlib1g-dev libpugixml-dev 
 for option in "$@"; do
     case $option in
         --tests) packages+=(libgtest-dev libgmock-dev librapidcheck-dev libboost-dev libgmp-dev clang-format-14 python3 man-db) ;;
-        --bench) packages+=(libbenchmark-dev libopenvdb-dev libcgal-dev libboost-iostreams-dev) ;;
+        --bench) packages+=(libbenchmark-dev libopenvdb-dev libcgal-dev libembree-dev libboost-iostreams-dev) ;;
         *) echo "setup_debian.sh: unknown option $option" >&2; exit 2 ;;
     esac
 done

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <octavo/base/context.hpp>
+#include <octavo/base/result.hpp>
+#include <octavo/query/closest_tree.hpp>
+#include <octavo/query/inside.hpp>
+#include <octavo/query/triangle_distance.hpp>
+
+// Signed distance, nearest point, triangle and normal, exact and everywhere.
+//
+// A depth-first walk over boxes of eight (closest_tree.hpp), nearest child first, keeps an upper bound of the distance
+// and the few triangles that floats cannot exclude; those are compared exactly (triangle_distance.hpp). Of equally
+// near triangles the one with the lowest number is the answer, so it does not depend on the order of the walk, on
+// other points of a batch or on threads. The sign is that of InsideQuery: negative inside (winding number > 0).
+//
+// Exact means: for the lattice mesh and the point to 62 bits (FixedPoint), the triangle is a nearest one; the distance
+// is its true distance rounded, to a few units in the last place of a double.
+//
+// Batches sort their points by Morton key and start each search from the answer before.
+
+namespace octavo::query {
+
+struct Closest {
+    double distance =
+        std::numeric_limits<double>::quiet_NaN();  ///< world units; negative inside, 0 on the surface
+    Vec3 point;                                    ///< of the surface, world
+    Vec3 normal;  ///< of the triangle, unit length; zero when it is degenerate
+    mesh::FaceIndex triangle = no_triangle;
+    Feature feature = Feature::vertex;  ///< what of the triangle is nearest
+    static constexpr mesh::FaceIndex no_triangle = 0xffffffff;
+};
+
+struct ClosestOptions {
+    /// Without a sign distances are positive everywhere, the mesh may be open, and a third of memory is saved.
+    enum class Sign : std::uint8_t { inside_negative, none };
+    Sign sign = Sign::inside_negative;
+    InsideOptions inside;
+};
+
+class ClosestQuery {
+  public:
+    /// Errors: bad_input for a mesh without facets; those of InsideQuery when signs are wanted.
+    static Result<ClosestQuery> build(const mesh::LatticeMesh& mesh, const ClosestOptions& options = {},
+                                      const Context& context = {});
+    static Result<ClosestQuery> build(const mesh::Mesh& mesh, const ClosestOptions& options = {},
+                                      const Context& context = {});
+
+    /// A point with a coordinate that is not a number has distance NaN, one with an infinite coordinate has distance
+    /// infinity, and both have no triangle.
+    Closest operator()(Vec3 point) const;
+
+    /// The same for many points, in their order; parallel, and faster a point. Cancelled: the rest is NaN.
+    std::vector<Closest> operator()(std::span<const Vec3> points, const Context& context = {}) const;
+
+    std::size_t memory_bytes() const;
+
+  private:
+    /// A triangle, measured exactly.
+    struct Nearest {
+        mesh::FaceIndex face = Closest::no_triangle;
+        NearestFeature feature;
+    };
+    Nearest search(const FixedPoint& q, mesh::FaceIndex guess) const;
+    Closest answer(Vec3 world, const FixedPoint& q, const Nearest& nearest, Side side) const;
+
+    mesh::LatticeMesh mesh_;
+    ClosestTree tree_;
+    std::shared_ptr<const InsideQuery> inside_;
+};
+
+}  // namespace octavo::query

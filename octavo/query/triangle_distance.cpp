@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <octavo/query/triangle_distance.hpp>
+
+namespace octavo::query {
+namespace {
+
+using exact::int128;
+using exact::wide;
+using exact::WideInt;
+using Difference = std::array<std::int64_t, 3>;
+
+Difference difference(const FixedPoint& q, exact::Point a) {
+    return {q.x[0] - (std::int64_t{a.x} << q.shift), q.x[1] - (std::int64_t{a.y} << q.shift),
+            q.x[2] - (std::int64_t{a.z} << q.shift)};
+}
+Difference edge(exact::Point a, exact::Point b) { return {b.x - a.x, b.y - a.y, b.z - a.z}; }
+
+int128 dot(const Difference& u, const Difference& v) {
+    static_assert(63 + 26 + 2 < 127);
+    return wide(u[0]) * v[0] + wide(u[1]) * v[1] + wide(u[2]) * v[2];
+}
+
+/// Of edges; below 2^53.
+Difference normal(const Difference& u, const Difference& v) {
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+std::array<int128, 3> cross(const Difference& e, const Difference& q) {
+    static_assert(63 + 26 + 1 < 127);
+    return {wide(e[1]) * q[2] - wide(e[2]) * q[1], wide(e[2]) * q[0] - wide(e[0]) * q[2],
+            wide(e[0]) * q[1] - wide(e[1]) * q[0]};
+}
+
+/// Whether a b − c d > 0; the factors are below 2^92.
+bool product_exceeds(int128 a, int128 b, int128 c, int128 d) {
+    const double first = static_cast<double>(a) * static_cast<double>(b);
+    const double second = static_cast<double>(c) * static_cast<double>(d);
+    // Three roundings a product and one of the difference: 2^-50 of the sum is more than their error.
+    const double error = 0x1p-50 * (std::fabs(first) + std::fabs(second));
+    if (first - second > error) return true;
+    if (first - second < -error) return false;
+    static_assert(92 + 92 + 1 < 191);
+    using Wide = WideInt<2>;
+    return exact::multiply<3>(Wide(a), Wide(b)) > exact::multiply<3>(Wide(c), Wide(d));
+}
+
+double square(double x) { return x * x; }
+
+struct Fraction {
+    WideInt<4> numerator;
+    WideInt<2> denominator;
+};
+
+/// The squared distance times 4^shift.
+Fraction exact_square(const FixedPoint& q, const mesh::LatticeMesh& mesh, const NearestFeature& nearest) {
+    const exact::Point a = mesh.points[nearest.vertices[0]];
+    const Difference qa = difference(q, a);
+    Fraction result;
+    const auto squared = [](int128 v) { return exact::multiply<4>(WideInt<2>(v), WideInt<2>(v)); };
+    if (nearest.feature == Feature::vertex) {
+        for (const std::int64_t x : qa) result.numerator += squared(x);
+        result.denominator = WideInt<2>(1);
+        return result;
+    }
+    const Difference ab = edge(a, mesh.points[nearest.vertices[1]]);
+    if (nearest.feature == Feature::edge) {
+        for (const int128 x : cross(ab, qa)) result.numerator += squared(x);
+        result.denominator = WideInt<2>(dot(ab, ab));
+        return result;
+    }
+    const Difference n = normal(ab, edge(a, mesh.points[nearest.vertices[2]]));
+    static_assert(53 + 63 + 2 < 127);
+    result.numerator = squared(dot(n, qa));
+    result.denominator = WideInt<2>(dot(n, n));
+    return result;
+}
+
+}  // namespace
+
+FixedPoint FixedPoint::of(Vec3 world, const exact::Lattice& lattice) {
+    // Scaling by a power of two is exact but for underflow, which is far below the resolution, and overflow.
+    const Vec3 scaled = (1 / lattice.unit()) * world;
+    const double farthest = std::max({std::fabs(scaled.x), std::fabs(scaled.y), std::fabs(scaled.z)});
+    FixedPoint fixed;
+    if (farthest <= 0x1p53) {
+        std::array<std::int64_t, 3> whole{};
+        std::uint64_t most = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            whole[i] = static_cast<std::int64_t>(std::floor(scaled[axis])) - lattice.origin()[i];
+            most = std::max(most, static_cast<std::uint64_t>(whole[i] < 0 ? -whole[i] : whole[i]));
+        }
+        fixed.shift = std::min(36, 62 - static_cast<int>(std::bit_width(most)));
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            const double part = scaled[axis] - std::floor(scaled[axis]);
+            const std::int64_t one = std::int64_t{1} << fixed.shift;
+            fixed.x[i] = whole[i] * one + static_cast<std::int64_t>(part * static_cast<double>(one) + 0.5);
+        }
+        return fixed;
+    }
+    // Here doubles are whole numbers of units; more than 62 bits of them are given up.
+    fixed.shift = 0;
+    Vec3 place;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double finite = std::clamp(scaled[axis], -0x1p1000, 0x1p1000);
+        place[axis] = finite - static_cast<double>(lattice.origin()[static_cast<std::size_t>(axis)]);
+    }
+    const double reach = std::max({std::fabs(place.x), std::fabs(place.y), std::fabs(place.z)});
+    fixed.scaled_down = reach > 0x1p61;
+    const double factor = fixed.scaled_down ? 0x1p61 / reach : 1;
+    for (int axis = 0; axis < 3; ++axis)
+        fixed.x[static_cast<std::size_t>(axis)] = std::llround(place[axis] * factor);
+    return fixed;
+}
+
+Vec3 FixedPoint::approximation() const {
+    const double step = 1 / static_cast<double>(std::int64_t{1} << shift);
+    return {step * static_cast<double>(x[0]), step * static_cast<double>(x[1]),
+            step * static_cast<double>(x[2])};
+}
+
+NearestFeature nearest_feature(const FixedPoint& q, const mesh::LatticeMesh& mesh, mesh::FaceIndex face) {
+    const mesh::Triangle& t = mesh.triangles[face];
+    const exact::Point a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]];
+    const double step = 1 / static_cast<double>(std::int64_t{1} << q.shift), scale = step * step;
+    const auto at_vertex = [&](mesh::VertexIndex vertex) {
+        const Difference d = difference(q, mesh.points[vertex]);
+        const double sum = square(static_cast<double>(d[0])) + square(static_cast<double>(d[1])) +
+                           square(static_cast<double>(d[2]));
+        return NearestFeature{Feature::vertex, {vertex, vertex, vertex}, sum * scale};
+    };
+    const auto on_edge = [&](mesh::VertexIndex from, mesh::VertexIndex to) {
+        if (from > to) std::swap(from, to);
+        const Difference e = edge(mesh.points[from], mesh.points[to]);
+        const std::array<int128, 3> w = cross(e, difference(q, mesh.points[from]));
+        const double sum = square(static_cast<double>(w[0])) + square(static_cast<double>(w[1])) +
+                           square(static_cast<double>(w[2]));
+        return NearestFeature{Feature::edge, {from, to, to}, sum / static_cast<double>(dot(e, e)) * scale};
+    };
+
+    const Difference ab = edge(a, b), ac = edge(a, c), qa = difference(q, a);
+    const int128 unit = int128{1} << q.shift;
+    const int128 ab_ac = dot(ab, ac) * unit, ab_ab = dot(ab, ab) * unit, ac_ac = dot(ac, ac) * unit;
+    const int128 d1 = dot(ab, qa), d2 = dot(ac, qa);
+    if (d1 <= 0 && d2 <= 0) return at_vertex(t[0]);
+    const int128 d3 = d1 - ab_ab, d4 = d2 - ab_ac;
+    if (d3 >= 0 && d4 <= d3) return at_vertex(t[1]);
+    const int128 d5 = d1 - ab_ac, d6 = d2 - ac_ac;
+    if (d6 >= 0 && d5 <= d6) return at_vertex(t[2]);
+    // Strict signs along the edges keep edges without length out; for others they change nothing.
+    if (d1 > 0 && d3 < 0 && !product_exceeds(d1, d4, d3, d2)) return on_edge(t[0], t[1]);
+    if (d2 > 0 && d6 < 0 && !product_exceeds(d5, d2, d1, d6)) return on_edge(t[0], t[2]);
+    if (d4 > d3 && d5 > d6 && !product_exceeds(d3, d6, d5, d4)) return on_edge(t[1], t[2]);
+    const Difference n = normal(ab, ac);
+    const double along = static_cast<double>(dot(n, qa));
+    const double length2 = square(static_cast<double>(n[0])) + square(static_cast<double>(n[1])) +
+                           square(static_cast<double>(n[2]));
+    return {Feature::face, t, along * along / length2 * scale};
+}
+
+std::strong_ordering compare_distance(const FixedPoint& q, const mesh::LatticeMesh& mesh,
+                                      const NearestFeature& a, const NearestFeature& b) {
+    const double error = 0x1p-46 * (a.squared_distance + b.squared_distance);
+    if (a.squared_distance < b.squared_distance - error) return std::strong_ordering::less;
+    if (a.squared_distance > b.squared_distance + error) return std::strong_ordering::greater;
+    if (a.feature == b.feature && a.vertices == b.vertices) return std::strong_ordering::equal;
+    const Fraction first = exact_square(q, mesh, a), second = exact_square(q, mesh, b);
+    static_assert(236 + 108 < 64 * 6 - 1);
+    return exact::multiply<6>(first.numerator, second.denominator) <=>
+           exact::multiply<6>(second.numerator, first.denominator);
+}
+
+Vec3 nearest_point(const FixedPoint& q, const mesh::LatticeMesh& mesh, const NearestFeature& feature) {
+    const exact::Point a = mesh.points[feature.vertices[0]];
+    const Vec3 base{static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
+    if (feature.feature == Feature::vertex) return base;
+    const auto to_vector = [](const Difference& d) {
+        return Vec3{static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
+    };
+    const Difference ab = edge(a, mesh.points[feature.vertices[1]]), qa = difference(q, a);
+    if (feature.feature == Feature::edge) {
+        const double t =
+            std::ldexp(static_cast<double>(dot(ab, qa)) / static_cast<double>(dot(ab, ab)), -q.shift);
+        return base + t * to_vector(ab);
+    }
+    const Difference n = normal(ab, edge(a, mesh.points[feature.vertices[2]]));
+    const double t = std::ldexp(static_cast<double>(dot(n, qa)) / static_cast<double>(dot(n, n)), -q.shift);
+    return q.approximation() - t * to_vector(n);
+}
+
+}  // namespace octavo::query

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "bp_octree/rational.hpp"
+#include "bp_octree/solids.hpp"
+#include <octavo/query/closest.hpp>
+
+namespace octavo::query {
+namespace {
+
+using tests::Rational;
+using tests::RationalPoint;
+
+RationalPoint rational(exact::Point p) { return {Rational(p.x), Rational(p.y), Rational(p.z)}; }
+RationalPoint minus(const RationalPoint& a, const RationalPoint& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Rational dot(const RationalPoint& a, const RationalPoint& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Rational square_to_segment(const RationalPoint& q, const RationalPoint& a, const RationalPoint& b) {
+    const RationalPoint e = minus(b, a), w = minus(q, a);
+    Rational t = dot(e, e) == 0 ? Rational(0) : Rational(dot(e, w) / dot(e, e));
+    t = t < 0 ? Rational(0) : t > 1 ? Rational(1) : t;
+    const RationalPoint d{w[0] - t * e[0], w[1] - t * e[1], w[2] - t * e[2]};
+    return dot(d, d);
+}
+
+/// By another road than the code under test: the least of three segments, and the plane where the foot is inside.
+Rational square_to_triangle(const RationalPoint& q, const mesh::LatticeMesh& mesh, mesh::FaceIndex face) {
+    const mesh::Triangle& t = mesh.triangles[face];
+    const RationalPoint a = rational(mesh.points[t[0]]), b = rational(mesh.points[t[1]]),
+                        c = rational(mesh.points[t[2]]);
+    Rational least = std::min(square_to_segment(q, a, b),
+                              std::min(square_to_segment(q, b, c), square_to_segment(q, c, a)));
+    const RationalPoint n = cross(minus(b, a), minus(c, a));
+    if (dot(n, n) == 0) return least;
+    if (dot(n, cross(minus(b, a), minus(q, a))) >= 0 && dot(n, cross(minus(c, b), minus(q, b))) >= 0 &&
+        dot(n, cross(minus(a, c), minus(q, c))) >= 0) {
+        const Rational height = dot(n, minus(q, a));
+        least = std::min(least, Rational(height * height / dot(n, n)));
+    }
+    return least;
+}
+
+RationalPoint rational(const FixedPoint& q) {
+    RationalPoint point;
+    for (std::size_t i = 0; i < 3; ++i) point[i] = Rational(q.x[i]) / Rational(std::int64_t{1} << q.shift);
+    return point;
+}
+
+/// The mesh's vertices, edge middles, face centres, points on bisectors, and points near and far.
+std::vector<Vec3> trying_points(const mesh::LatticeMesh& mesh, std::size_t random_points) {
+    std::vector<Vec3> points;
+    std::mt19937 random(21);
+    const auto world = [&](Vec3 p) {
+        const auto& origin = mesh.lattice.origin();
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] =
+                (static_cast<double>(origin[static_cast<std::size_t>(axis)]) + p[axis]) * mesh.lattice.unit();
+        return p;
+    };
+    const auto vertex = [&](mesh::VertexIndex i) {
+        const exact::Point p = mesh.points[i];
+        return Vec3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+    };
+    for (std::size_t i = 0; i < mesh.triangles.size() && i < 40; ++i) {
+        const mesh::Triangle& t = mesh.triangles[i];
+        const Vec3 a = vertex(t[0]), b = vertex(t[1]), c = vertex(t[2]);
+        points.push_back(world(a));
+        points.push_back(world(0.5 * (a + b)));
+        points.push_back(world(0.25 * (a + b) + 0.5 * c));
+    }
+    const double side = exact::universe_side;
+    std::uniform_real_distribution<double> unit(0, 1);
+    points.push_back(world({side / 2, side / 2, side / 2}));
+    for (std::size_t i = 0; i < random_points; ++i) {
+        const double reach = i % 10 == 0 ? 1e3 : i % 10 == 1 ? 1e9 : 1;
+        points.push_back(
+            world({side * (0.5 + reach * (unit(random) - 0.5)), side * (0.5 + reach * (unit(random) - 0.5)),
+                   side * (0.5 + reach * (unit(random) - 0.5))}));
+    }
+    return points;
+}
+
+void expect_exact(const mesh::LatticeMesh& mesh, std::span<const Vec3> points) {
+    ClosestOptions options;
+    options.sign = ClosestOptions::Sign::none;
+    auto query = ClosestQuery::build(mesh, options);
+    ASSERT_TRUE(query.has_value());
+    const std::vector<Closest> batch = (*query)(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Closest closest = (*query)(points[i]);
+        const RationalPoint q = rational(FixedPoint::of(points[i], mesh.lattice));
+        Rational least = square_to_triangle(q, mesh, 0);
+        mesh::FaceIndex first = 0;
+        for (mesh::FaceIndex face = 1; face < mesh.triangles.size(); ++face) {
+            const Rational square = square_to_triangle(q, mesh, face);
+            if (square < least) least = square, first = face;
+        }
+        ASSERT_EQ(closest.triangle, first) << "point " << i;
+        const double distance = std::sqrt(least.convert_to<double>()) * mesh.lattice.unit();
+        ASSERT_NEAR(closest.distance, distance, 1e-15 * distance) << "point " << i;
+        ASSERT_NEAR(length(closest.point - points[i]), distance, 1e-8 + 1e-14 * length(points[i]))
+            << "point " << i;
+        ASSERT_EQ(batch[i].triangle, closest.triangle);
+        ASSERT_EQ(batch[i].distance, closest.distance);
+        ASSERT_EQ(batch[i].point, closest.point);
+    }
+}
+
+TEST(Closest, IsTheBruteForceAnswerInRationalsOnACurvedSolid) {
+    const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(3));
+    expect_exact(mesh, trying_points(mesh, 300));
+}
+
+TEST(Closest, IsTheBruteForceAnswerInRationalsOnBoxesFullOfTies) {
+    mesh::Mesh mesh = tests::box({0, 0, 0}, {4, 4, 4});
+    tests::add_box(mesh, {4, 4, 0}, {8, 8, 4});
+    tests::add_box(mesh, {1, 1, 1}, {3, 3, 3});
+    const mesh::LatticeMesh lattice_mesh = tests::on_lattice(mesh);
+    std::vector<Vec3> points = trying_points(lattice_mesh, 200);
+    for (double x = -1; x <= 9; x += 1)
+        for (double y = -1; y <= 9; y += 1)
+            for (double z = -1; z <= 5; z += 1) points.push_back({x, y, z});
+    expect_exact(lattice_mesh, points);
+}
+
+TEST(Closest, SliversAndDegenerateTrianglesAreMeasuredExactly) {
+    mesh::Mesh mesh;
+    std::mt19937 random(22);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (std::uint32_t i = 0; i < 60; ++i) {
+        const Vec3 p{unit(random), unit(random), unit(random)}, q{unit(random), unit(random), unit(random)};
+        const double thin = std::pow(10, -static_cast<double>(i % 9));
+        const Vec3 r =
+            i % 7 == 0   ? p
+            : i % 7 == 1 ? 0.5 * (p + q)
+                         : p + unit(random) * (q - p) + thin * Vec3{unit(random), unit(random), unit(random)};
+        mesh.vertices.insert(mesh.vertices.end(), {p, q, r});
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    mesh.triangles.push_back({0, 0, 0});
+    const mesh::LatticeMesh lattice_mesh = tests::on_lattice(mesh);
+    expect_exact(lattice_mesh, trying_points(lattice_mesh, 300));
+}
+
+TEST(Closest, AgreesWithTestingEveryTriangleOnALargerSolid) {
+    const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(5));
+    ClosestOptions options;
+    options.sign = ClosestOptions::Sign::none;
+    auto query = ClosestQuery::build(mesh, options);
+    ASSERT_TRUE(query.has_value());
+    const std::vector<Vec3> points = trying_points(mesh, 700);
+    const std::vector<Closest> answers = (*query)(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const FixedPoint q = FixedPoint::of(points[i], mesh.lattice);
+        NearestFeature best = nearest_feature(q, mesh, 0);
+        mesh::FaceIndex first = 0;
+        for (mesh::FaceIndex face = 1; face < mesh.triangles.size(); ++face) {
+            const NearestFeature feature = nearest_feature(q, mesh, face);
+            if (compare_distance(q, mesh, feature, best) < 0) best = feature, first = face;
+        }
+        ASSERT_EQ(answers[i].triangle, first);
+    }
+}
+
+TEST(Closest, DistancesAreNegativeInsideAndZeroOnTheSurface) {
+    auto query = ClosestQuery::build(tests::box({0, 0, 0}, {4, 4, 4}));
+    ASSERT_TRUE(query.has_value());
+    EXPECT_EQ((*query)({1, 2, 1.5}).distance, -1);
+    EXPECT_EQ((*query)({1, 2, 1.5}).point, (Vec3{0, 2, 1.5}));
+    EXPECT_EQ((*query)({1, 2, 1.5}).normal, (Vec3{-1, 0, 0}));
+    EXPECT_EQ((*query)({1, 2, 1.5}).feature, Feature::face);
+    EXPECT_EQ((*query)({-3, 2, 8}).distance, 5);
+    EXPECT_EQ((*query)({-3, 2, 8}).feature, Feature::edge);
+    EXPECT_EQ((*query)({4, 1, 1}).distance, 0);
+    EXPECT_EQ((*query)({6, 7, 10}).distance, 7);
+    EXPECT_EQ((*query)({6, 7, 10}).feature, Feature::vertex);
+}
+
+TEST(Closest, PointsThatAreNotFiniteAndPointsFarAwayAreAnsweredByRule) {
+    auto query = ClosestQuery::build(tests::box({0, 0, 0}, {4, 4, 4}));
+    ASSERT_TRUE(query.has_value());
+    const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(std::isnan((*query)({nan, 0, 0}).distance));
+    EXPECT_TRUE(std::isnan((*query)({nan, infinity, 0}).distance));
+    EXPECT_EQ((*query)({0, -infinity, 0}).distance, infinity);
+    EXPECT_EQ((*query)({0, -infinity, 0}).triangle, Closest::no_triangle);
+    for (const double far : {1e6, 1e15, 1e30, 1e150}) {
+        const Closest closest = (*query)({far, 2, 2});
+        EXPECT_NEAR(closest.distance, far - 4, 1e-15 * far);
+        EXPECT_EQ(closest.point.x, 4);
+    }
+    EXPECT_EQ((*query)({1e300, 1e300, 1e300}).point, (Vec3{4, 4, 4}));
+}
+
+TEST(Closest, OpenMeshesHaveDistancesWithoutASignOnly) {
+    mesh::Mesh mesh = tests::bumpy_sphere(2);
+    mesh.triangles.pop_back();
+    EXPECT_EQ(ClosestQuery::build(mesh).error().code, ErrorCode::not_a_solid);
+    ClosestOptions options;
+    options.sign = ClosestOptions::Sign::none;
+    EXPECT_TRUE(ClosestQuery::build(mesh, options).has_value());
+    EXPECT_EQ(ClosestQuery::build(mesh::LatticeMesh{}, options).error().code, ErrorCode::bad_input);
+}
+
+}  // namespace
+}  // namespace octavo::query
