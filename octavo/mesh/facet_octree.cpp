@@ -28,6 +28,11 @@ bool gives_up(double waste, std::size_t facets) {
 // smaller cells.
 constexpr std::size_t least_settled = 16, most_settled = 8192;
 
+// Settling only after splitting had turned out not to pay was tried: no better on cones, minutes on bundles of slivers.
+
+// How many facets of a list are asked for a fan at their vertices: each costs three looks at the list.
+constexpr std::size_t fan_samples = 4;
+
 // Facets of a task. Small enough for eight threads to share 100K facets, large enough that the lists of the tasks
 // are lost in the cost.
 constexpr std::size_t task_size = 4096;
@@ -109,7 +114,8 @@ class PairDescent {
         : points_(points), triangles_(triangles), visit_pairs_(visit) {}
 
     void run(const PairTask& task) {
-        if (!task.descend) return visit_pairs_(task.cell, task.faces, task.fresh);
+        if (task.kind != PairTask::Kind::descend)
+            return visit_pairs_(task.cell, {task.faces, task.fresh, task.kind == PairTask::Kind::visit_fan});
         stack_ = task.faces;
         for (std::size_t i = task.fresh; i < stack_.size(); ++i) stack_[i] |= settled;
         visit(task.cell, 0);
@@ -132,23 +138,20 @@ class PairDescent {
     /// The cell's list is the stack from `begin` to its top; it is gone afterwards.
     void visit(const FacetCell& cell, std::size_t begin) {
         ListSize size = size_from(begin);
+        const auto all = [](FaceIndex) { return true; };
         if (tasks_ && size.all <= task_size) {
-            if (size.fresh > 0 && size.all > 1)
-                visit_chosen(cell, begin, true, [](FaceIndex) { return true; });
-            size.fresh = 0;
+            if (size.fresh > 0 && size.all > 1) visit_chosen(cell, begin, PairTask::Kind::descend, all);
+            stack_.resize(begin);
+            return;
         }
-        if (size.fresh > 0 && !is_leaf(cell, size)) {
-            if (is_fan_without_ends(cell, begin)) {
-                size.fresh = 0;
-            } else {
-                size.fresh -= settle_through_going(cell, begin);
-                if (size.fresh > 0 && !is_leaf(cell, size)) {
-                    split(cell, begin, size);
-                    size.fresh = 0;
-                }
-            }
+        if (size.fresh > 0 && !is_leaf(cell, size)) size.fresh -= settle_fans(cell, begin);
+        if (size.fresh > 0 && !is_leaf(cell, size)) size.fresh -= settle_through_going(cell, begin);
+        if (size.fresh > 0 && size.all > 1) {
+            if (is_leaf(cell, size))
+                visit_chosen(cell, begin, PairTask::Kind::visit, all);
+            else
+                split(cell, begin, size);
         }
-        if (size.fresh > 0 && size.all > 1) visit_chosen(cell, begin, true, [](FaceIndex) { return true; });
         stack_.resize(begin);
     }
 
@@ -166,17 +169,18 @@ class PairDescent {
     /// Visits the pairs of the fresh facets that are chosen, with each other and with the settled ones, or makes them
     /// a task.
     template <class Choose>
-    void visit_chosen(const FacetCell& cell, std::size_t begin, bool descend, const Choose& choose) {
+    void visit_chosen(const FacetCell& cell, std::size_t begin, PairTask::Kind kind, const Choose& choose) {
         chosen_.clear();
         for (std::size_t i = begin; i < stack_.size(); ++i)
             if (!(stack_[i] & settled) && choose(stack_[i])) chosen_.push_back(stack_[i]);
         const std::size_t fresh = chosen_.size();
         for (std::size_t i = begin; i < stack_.size(); ++i)
             if (stack_[i] & settled) chosen_.push_back(stack_[i] & ~settled);
+        if (kind == PairTask::Kind::visit_fan && fresh == chosen_.size()) return;
         if (tasks_)
-            tasks_->push_back({cell, chosen_, fresh, descend});
+            tasks_->push_back({cell, chosen_, fresh, kind});
         else
-            visit_pairs_(cell, chosen_, fresh);
+            visit_pairs_(cell, {chosen_, fresh, kind == PairTask::Kind::visit_fan});
     }
 
     /// Settles the facets that run through the cell, if they are many; returns how many.
@@ -187,7 +191,7 @@ class PairDescent {
         const auto count = static_cast<std::size_t>(
             std::count_if(stack_.begin() + static_cast<std::ptrdiff_t>(begin), stack_.end(), through));
         if (count < least_settled || count > most_settled) return 0;
-        visit_chosen(cell, begin, false, through);
+        visit_chosen(cell, begin, PairTask::Kind::visit, through);
         for (std::size_t i = begin; i < stack_.size(); ++i)
             if (through(stack_[i])) stack_[i] |= settled;
         return count;
@@ -217,15 +221,27 @@ class PairDescent {
         masks_.resize(first_mask);
     }
 
-    /// Is a vertex of the first facet one of all, and no end of the fan at it in the cell?
-    bool is_fan_without_ends(const FacetCell& cell, std::size_t begin) const {
-        for (const VertexIndex vertex : triangles_[stack_[begin] & ~settled]) {
-            bool fan = true;
-            for (std::size_t i = begin; fan && i < stack_.size(); ++i)
-                fan = has_no_end_inside(stack_[i] & ~settled, vertex, cell);
-            if (fan) return true;
+    /// Settles the large fans that do not end in the cell; returns how many facets. Vertices are tried by samples: of a
+    /// fan that is worth it some are met.
+    std::size_t settle_fans(const FacetCell& cell, std::size_t begin) {
+        std::size_t settled_facets = 0;
+        for (std::size_t sample = 0; sample < fan_samples; ++sample) {
+            const FaceIndex face = stack_[begin + (stack_.size() - begin) * sample / fan_samples];
+            if (face & settled) continue;
+            for (const VertexIndex vertex : triangles_[face]) {
+                const auto in_fan = [&](FaceIndex other) {
+                    return !(other & settled) && has_no_end_inside(other, vertex, cell);
+                };
+                const auto count = static_cast<std::size_t>(
+                    std::count_if(stack_.begin() + static_cast<std::ptrdiff_t>(begin), stack_.end(), in_fan));
+                if (count < least_settled) continue;
+                visit_chosen(cell, begin, PairTask::Kind::visit_fan, in_fan);
+                for (std::size_t i = begin; i < stack_.size(); ++i)
+                    if (in_fan(stack_[i])) stack_[i] |= settled;
+                settled_facets += count;
+            }
         }
-        return false;
+        return settled_facets;
     }
 
     /// Is `vertex` a vertex of the facet, whose side opposite to it stays out of the cell?

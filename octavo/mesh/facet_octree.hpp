@@ -22,8 +22,8 @@
 //  * Slivers that run through a cell from end to end would meet again in every small cell along their way. Their pairs
 //    are visited at once, in the large cell; below, they are *settled* and visited only with what is fresh.
 //  * The n² pairs of a fan round one vertex lie wherever the cell at that vertex is cut. But what two facets with a
-//    common vertex have in common beyond it ends on a side opposite to the vertex; cells in which all facets have
-//    one vertex, and no such side, are passed over.
+//    common vertex have in common beyond it ends on a side opposite to the vertex. In a cell without such a side of
+//    either the pair has nothing to show, so the facets of a fan that do not end in the cell are settled there for free.
 //  * Splitting costs longer lists and pays in fewer pairs; paths on which it does not pay end.
 //
 // octree::descend is not used here: it delivers leaves in Morton order with a description each and forks by
@@ -49,17 +49,22 @@ struct FacetCell {
     double waste = 1;  ///< how much longer the lists have become without fewer pairs to show for it
 };
 
-/// Called with facets near each other: the pairs to look at are those of the first `fresh` ones among themselves and
-/// with the rest, whose own pairs have had their turn.
-using PairVisitor =
-    std::function<void(const FacetCell& cell, std::span<const FaceIndex> faces, std::size_t fresh)>;
+/// Pairs of facets that are near each other in a cell: the first `fresh` ones with the rest and, unless they are a
+/// fan, among themselves.
+struct NearPairs {
+    std::span<const FaceIndex> faces;
+    std::size_t fresh = 0;
+    bool fan = false;
+};
+
+using PairVisitor = std::function<void(const FacetCell& cell, const NearPairs& pairs)>;
 
 /// A piece of the search that one thread can do: a cell to descend from, or pairs to visit as they are.
 struct PairTask {
     FacetCell cell;
-    std::vector<FaceIndex> faces;  ///< first the fresh ones
+    std::vector<FaceIndex> faces;  ///< as in NearPairs
     std::size_t fresh = 0;
-    bool descend = false;
+    enum class Kind : std::uint8_t { descend, visit, visit_fan } kind = Kind::descend;
 };
 
 /// Splits the search over the whole universe into pieces, which do not depend on the threads. Facets that repeat a

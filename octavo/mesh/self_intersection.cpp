@@ -103,13 +103,14 @@ class CellSearch {
                SelfIntersections& found)
         : points_(points), triangles_(triangles), stars_(stars), found_(found) {}
 
-    void operator()(const FacetCell& cell, std::span<const FaceIndex> faces, std::size_t fresh) {
-        gather(faces);
+    void operator()(const FacetCell& cell, const NearPairs& pairs) {
+        gather(pairs.faces);
         note_ends(cell);
-        for (std::size_t i = 0; i < fresh; ++i) {
-            mark_boxes_that_meet(i);
-            for (std::size_t j = i + 1; j < faces.size(); ++j)
-                if (meets_[j]) test(i, j, faces);
+        for (std::size_t i = 0; i < pairs.fresh; ++i) {
+            const std::size_t first = pairs.fan ? pairs.fresh : i + 1;
+            mark_boxes_that_meet(i, first);
+            for (std::size_t j = first; j < pairs.faces.size(); ++j)
+                if (meets_[j]) test(i, j, pairs.faces);
         }
     }
 
@@ -138,14 +139,14 @@ class CellSearch {
     }
 
     /// Six comparisons an entry in a loop without branches, which compilers make eight entries wide.
-    void mark_boxes_that_meet(std::size_t i) {
+    void mark_boxes_that_meet(std::size_t i, std::size_t first) {
         const std::int32_t lx = low_[0][i], ly = low_[1][i], lz = low_[2][i];
         const std::int32_t hx = high_[0][i], hy = high_[1][i], hz = high_[2][i];
         const std::int32_t *low_x = low_[0].data(), *low_y = low_[1].data(), *low_z = low_[2].data();
         const std::int32_t *high_x = high_[0].data(), *high_y = high_[1].data(), *high_z = high_[2].data();
         std::int32_t* meets = meets_.data();
         const std::size_t count = meets_.size();
-        for (std::size_t j = i + 1; j < count; ++j)
+        for (std::size_t j = first; j < count; ++j)
             meets[j] = (low_x[j] <= hx) & (high_x[j] >= lx) & (low_y[j] <= hy) & (high_y[j] >= ly) &
                        (low_z[j] <= hz) & (high_z[j] >= lz);
     }
