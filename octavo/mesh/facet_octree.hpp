@@ -67,14 +67,20 @@ struct PairTask {
     enum class Kind : std::uint8_t { descend, visit, visit_fan } kind = Kind::descend;
 };
 
+/// What is searched.
+struct PairSearch {
+    std::span<const exact::Point> points;
+    std::span<const Triangle> triangles;
+    const std::vector<bool>&
+        is_hub;  ///< by vertex: has it so many facets that a fan round it is worth looking for?
+};
+
 /// Splits the search over the whole universe into pieces, which do not depend on the threads. Facets that repeat a
 /// vertex are left out.
-std::vector<PairTask> make_pair_tasks(std::span<const exact::Point> points,
-                                      std::span<const Triangle> triangles);
+std::vector<PairTask> make_pair_tasks(const PairSearch& search);
 
 /// Visits the pairs of facets that may meet in the task's cell.
-void for_near_pairs(const PairTask& task, std::span<const exact::Point> points,
-                    std::span<const Triangle> triangles, const PairVisitor& visit);
+void for_near_pairs(const PairTask& task, const PairSearch& search, const PairVisitor& visit);
 
 /// May the facet have a point in the closed cube? Exact but for the plane, which counts as met when rounding
 /// leaves it open.

@@ -33,6 +33,11 @@ struct Stars {
         return {faces.data() + begin[vertex], begin[vertex + std::size_t{1}] - begin[vertex]};
     }
     bool searched(VertexIndex vertex) const { return of(vertex).size() <= largest_star; }
+    std::vector<bool> hubs() const {
+        std::vector<bool> hubs(begin.size() - 1);
+        for (VertexIndex vertex = 0; vertex < hubs.size(); ++vertex) hubs[vertex] = !searched(vertex);
+        return hubs;
+    }
 };
 
 Stars gather_stars(std::span<const Triangle> triangles, std::size_t vertex_count) {
@@ -128,14 +133,16 @@ class CellSearch {
         }
     }
 
-    /// For each corner of each facet: does the side opposite to it enter the cell? Needed where fans are.
+    /// For each corner of each facet that is at a hub: does the side opposite to it enter the cell?
     void note_ends(const FacetCell& cell) {
         ends_inside_.assign(facets_.size(), {true, true, true});
         if (facets_.size() < least_fan) return;
         for (std::size_t i = 0; i < facets_.size(); ++i)
             for (std::size_t corner = 0; corner < 3; ++corner)
-                ends_inside_[i][corner] = enters(facets_[i].points[(corner + 1) % 3],
-                                                 facets_[i].points[(corner + 2) % 3], cell.low, cell.side);
+                if (!stars_.searched(facets_[i].vertices[corner]))
+                    ends_inside_[i][corner] =
+                        enters(facets_[i].points[(corner + 1) % 3], facets_[i].points[(corner + 2) % 3],
+                               cell.low, cell.side);
     }
 
     /// Six comparisons an entry in a loop without branches, which compilers make eight entries wide.
@@ -205,12 +212,14 @@ Result<SelfIntersections> find_self_intersections(std::span<const Point> points,
     });
 
     if (context.cancelled()) return Context::cancelled_error();
-    const std::vector<PairTask> tasks = make_pair_tasks(points, triangles);
+    const std::vector<bool> hubs = stars.hubs();
+    const PairSearch search{points, triangles, hubs};
+    const std::vector<PairTask> tasks = make_pair_tasks(search);
     const std::size_t first_task = found.size();
     found.resize(first_task + tasks.size());
     parallel_chunks(context, tasks.size(), 1, [&](std::size_t task, std::size_t) {
-        CellSearch search(points, triangles, stars, found[first_task + task]);
-        for_near_pairs(tasks[task], points, triangles, std::ref(search));
+        CellSearch cell_search(points, triangles, stars, found[first_task + task]);
+        for_near_pairs(tasks[task], search, std::ref(cell_search));
     });
     if (context.cancelled()) return Context::cancelled_error();
     return merged(found);

@@ -140,6 +140,46 @@ TEST(SelfIntersections, InFansOfSliversAreThoseOfAllPairs) {
     }
 }
 
+/// Fans whose centres lie close together and whose slivers run through each other, with loose facets among them: no
+/// cell round a centre holds one fan alone.
+TEST(SelfIntersections, InFansThatShareTheirCellsAreThoseOfAllPairs) {
+    std::mt19937 random(33);
+    for (const std::int32_t radius : {2000, 20000000}) {
+        for (int round = 0; round < 6; ++round) {
+            const int fans = 2 + round % 3, slivers = 60;
+            std::uniform_int_distribution<std::int32_t> offset(-radius / 200, radius / 200),
+                height(-radius / 4, radius / 4);
+            const auto near_centre = [&] {
+                return exact::Point{radius + offset(random), radius + offset(random),
+                                    radius + offset(random)};
+            };
+            LatticeMesh mesh;
+            for (int fan = 0; fan < fans; ++fan) {
+                const auto centre = static_cast<VertexIndex>(mesh.points.size());
+                mesh.points.push_back(near_centre());
+                const std::int32_t rim = height(random);
+                for (int i = 0; i < slivers; ++i) {
+                    const double angle = i * 6.283185 / slivers;
+                    mesh.points.push_back({static_cast<std::int32_t>(radius + 0.9 * radius * std::cos(angle)),
+                                           static_cast<std::int32_t>(radius + 0.9 * radius * std::sin(angle)),
+                                           radius + (i % 7 ? rim : height(random))});
+                }
+                for (VertexIndex i = 1; i <= slivers; ++i)
+                    mesh.triangles.push_back({centre, centre + i, centre + i % slivers + 1});
+            }
+            for (VertexIndex i = 0; i < 4; ++i) {  // small facets at the centres
+                const auto first = static_cast<VertexIndex>(mesh.points.size());
+                for (int k = 0; k < 3; ++k) mesh.points.push_back(near_centre());
+                mesh.triangles.push_back({first, first + 1, i % 2 ? first + 2 : 0});
+            }
+            mesh = weld(mesh);
+            const SelfIntersections expected = by_all_pairs(mesh);
+            EXPECT_GT(expected.crossing.size(), 10u);
+            EXPECT_TRUE(search(mesh) == expected) << radius << " " << round;
+        }
+    }
+}
+
 TEST(SelfIntersections, OfTwoSpheresAreThoseOfAllPairs) {
     const Mesh both =
         join(std::array{icosphere(1, 8), transform(icosphere(1, 7), translation({0.7, 0.1, 0.2}))});
