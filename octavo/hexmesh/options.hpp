@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <octavo/base/vec3.hpp>
+#include <octavo/classic/closed_surface.hpp>
+#include <octavo/mesh/hex_mesh.hpp>
+#include <octavo/octree/balance.hpp>
+
+// What a mesh of hexahedra should look like.
+//
+// All lengths are absolute, in world units. Cells have sides that are powers of two and lie on the grid of
+// their multiples, whatever the size or shape of the solids: a length asked for is met by the largest such side that
+// is not greater, and the same part meshed beside another one gets the same cells.
+
+namespace octavo::hexmesh {
+
+/// Lengths of one solid that differ from the general ones; 0 leaves the general one.
+struct SolidSize {
+    mesh::SolidIndex solid = 0;
+    double surface = 0;   ///< cells that its surface passes through are at most this large
+    double interior = 0;  ///< cells inside are at most this large
+};
+
+/// Cells that meet the box and are part of the mesh are at most this large.
+struct BoxSize {
+    Box3 box = {};
+    double size = 0;
+};
+
+/// Where the surface bends, cells are smaller.
+struct CurvatureSize {
+    double smallest = 0;        ///< down to this length; 0 switches it off
+    double angle_degrees = 30;  ///< a cell whose facets' normals differ by more is split
+};
+
+/// Where two sheets of surface face away from each other inside one cell (thin walls and gaps), cells are smaller.
+struct ProximitySize {
+    double smallest = 0;  ///< down to this length; 0 switches it off
+};
+
+/// Cells outside all solids.
+enum class Outside : std::uint8_t { carve, keep };
+
+/// The part of each boundary cell that lies in a solid.
+enum class Fractions : std::uint8_t { compute, skip };
+
+/// Places where a solid overlaps itself: the winding number is greater than 1, or negative (inside out).
+enum class OverlapPolicy : std::uint8_t {
+    reject,  ///< name facets and stop: a union of the solid with nothing resolves it
+    /// Inside means winding number > 0; fractions and volumes count what is covered twice twice.
+    winding,
+};
+
+struct Options {
+    double precision = 0;  ///< cells that a surface passes through are at most this large; 0 asks for `level`
+    int level = 7;  ///< used when precision is 0: cells on surfaces are about 1/2^level of the largest extent
+    double largest = 0;  ///< no cell of the mesh is larger; 0 is no limit
+    std::vector<SolidSize> solids = {};
+    std::vector<BoxSize> boxes = {};
+    CurvatureSize curvature = {};
+    ProximitySize proximity = {};
+    octree::Contact balance = octree::Contact::edge;
+    Outside outside = Outside::carve;
+    Fractions fractions = Fractions::compute;
+    classic::OpenPolicy open = classic::OpenPolicy::reject;
+    OverlapPolicy overlaps = OverlapPolicy::reject;
+};
+
+}  // namespace octavo::hexmesh

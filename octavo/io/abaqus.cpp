@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <octavo/io/abaqus.hpp>
+#include <octavo/io/output.hpp>
+
+namespace octavo::io {
+namespace {
+
+/// Appends the shortest form that reads back the same, or, when that has more than 20 characters, the best of 20.
+void append_short(Output& output, double value) {
+    constexpr std::size_t longest = 20;
+    std::array<char, longest_number> exact;
+    const auto length = static_cast<std::size_t>(write_number(exact.data(), value) - exact.data());
+    if (length <= longest) {
+        output.append(std::string_view(exact.data(), length));
+        return;
+    }
+    std::array<char, 40> text;
+    for (int digits = 16;; --digits) {
+        const int size = std::snprintf(text.data(), text.size(), "%.*e", digits, value);
+        if (static_cast<std::size_t>(size) > longest) continue;
+        output.append(std::string_view(text.data(), static_cast<std::size_t>(size)));
+        return;
+    }
+}
+
+std::string set_name(const mesh::SolidSet& set, std::span<const std::string> names) {
+    std::vector<mesh::SolidIndex> solids = set.inside;
+    solids.insert(solids.end(), set.boundary.begin(), set.boundary.end());
+    std::sort(solids.begin(), solids.end());
+    std::string name;
+    for (const mesh::SolidIndex solid : solids) {
+        if (!name.empty()) name += "_AND_";
+        name += solid < names.size() ? names[solid] : "SOLID_" + std::to_string(solid);
+    }
+    if (name.empty()) return "OUTSIDE";
+    for (char& c : name) {
+        const auto letter = static_cast<unsigned char>(c);
+        c = std::isalnum(letter) ? static_cast<char>(std::toupper(letter)) : '_';
+    }
+    if (!std::isalpha(static_cast<unsigned char>(name[0]))) name.insert(0, "S");
+    constexpr std::size_t longest_name = 80;
+    return name.substr(0, longest_name);
+}
+
+void append_count(Output& output, std::uint64_t value) { output.append_number(value); }
+
+void write_nodes(Output& output, const mesh::HexMesh& mesh) {
+    output.append("*NODE, NSET=ALL\n");
+    for (mesh::NodeIndex node = 0; node < mesh.nodes.size(); ++node) {
+        const Vec3 p = mesh.position(node);
+        append_count(output, node + std::uint64_t{1});
+        for (int axis = 0; axis < 3; ++axis) {
+            output.append(',');
+            append_short(output, p[axis]);
+        }
+        output.append('\n');
+    }
+}
+
+void write_elements(Output& output, const mesh::HexMesh& mesh, std::span<const std::string> names) {
+    constexpr std::array<std::size_t, 8> order{0, 1, 3, 2, 4, 5, 7, 6};
+    std::map<std::string, std::vector<bool>> groups;  // one name may stand for several sets
+    for (std::size_t set = 0; set < mesh.sets.size(); ++set)
+        groups.try_emplace(set_name(mesh.sets[set], names), mesh.sets.size()).first->second[set] = true;
+    for (const auto& [name, sets] : groups) {
+        bool begun = false;
+        for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+            if (!sets[mesh.set_of_cell[cell]]) continue;
+            if (!begun) output.append("*ELEMENT, TYPE=C3D8, ELSET=" + name + "\n");
+            begun = true;
+            append_count(output, cell + 1);
+            for (const std::size_t corner : order) {
+                output.append(',');
+                append_count(output, mesh.corners[cell][corner] + std::uint64_t{1});
+            }
+            output.append('\n');
+        }
+    }
+}
+
+template <std::size_t count>
+void write_equation(Output& output, mesh::NodeIndex node, const std::array<mesh::NodeIndex, count>& masters,
+                    int degree, std::string_view weight) {
+    output.append("*EQUATION\n");
+    append_count(output, count + 1);
+    output.append('\n');
+    append_count(output, node + std::uint64_t{1});
+    output.append(',');
+    append_count(output, static_cast<std::uint64_t>(degree));
+    output.append(",-1.");
+    for (std::size_t i = 0; i < count; ++i) {
+        // Four terms a line at most.
+        output.append(i == 3 ? ",\n" : ",");
+        append_count(output, masters[i] + std::uint64_t{1});
+        output.append(',');
+        append_count(output, static_cast<std::uint64_t>(degree));
+        output.append(weight);
+    }
+    output.append('\n');
+}
+
+void write_constraints(Output& output, const mesh::HexMesh& mesh, AbaqusOptions::Field field) {
+    if (mesh.hanging_nodes() == 0) return;
+    output.append("*NSET, NSET=HANGING\n");
+    const auto list = [&](mesh::NodeIndex node) {
+        append_count(output, node + std::uint64_t{1});
+        output.append(",\n");
+    };
+    for (const mesh::EdgeHangingNode& hanging : mesh.edge_hanging) list(hanging.node);
+    for (const mesh::FaceHangingNode& hanging : mesh.face_hanging) list(hanging.node);
+    constexpr std::array displacement{1, 2, 3}, temperature{11, 0, 0};
+    const bool moves = field == AbaqusOptions::Field::displacement;
+    for (const int degree : moves ? displacement : temperature) {
+        if (degree == 0) continue;
+        for (const mesh::EdgeHangingNode& hanging : mesh.edge_hanging)
+            write_equation(output, hanging.node, hanging.masters, degree, ",0.5");
+        for (const mesh::FaceHangingNode& hanging : mesh.face_hanging)
+            write_equation(output, hanging.node, hanging.masters, degree, ",0.25");
+    }
+}
+
+}  // namespace
+
+Result<WriteReport> write_abaqus(const std::string& path, const mesh::HexMesh& mesh,
+                                 const AbaqusOptions& options, const Context& context) {
+    if (!mesh.constraints_are_direct)
+        return Error{ErrorCode::unsupported,
+                     "constraints of a mesh balanced by faces alone are chained; balance it by edge",
+                     {}};
+    Result<Output> output = Output::to_file(path);
+    if (!output) return output.error();
+    output->append("** Octree mesh with tied hanging nodes\n");
+    write_nodes(*output, mesh);
+    write_elements(*output, mesh, options.names);
+    write_constraints(*output, mesh, options.field);
+    output->append(options.tail);
+    if (context.cancelled()) return Context::cancelled_error();
+    WriteReport report;
+    report.format = "abaqus";
+    report.bytes = output->size();
+    if (Status status = output->commit(); !status) return status.error();
+    return report;
+}
+
+}  // namespace octavo::io

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <functional>
+#include <system_error>
+#include <utility>
+
+#include <unistd.h>
+
+#include <octavo/io/openfoam.hpp>
+#include <octavo/io/output.hpp>
+
+namespace octavo::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string word(const std::string& name) {
+    std::string result;
+    for (const char c : name) {
+        const bool allowed =
+            std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '+' || c == '-' || c == '.';
+        result += allowed ? c : '_';
+    }
+    if (result.empty() || !std::isalpha(static_cast<unsigned char>(result[0]))) result.insert(0, "s");
+    return result;
+}
+
+void begin(Output& output, const char* type, const char* object, const std::string& note = {}) {
+    output.append("FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       ");
+    output.append(type);
+    output.append(";\n");
+    if (!note.empty()) output.append("    note        \"" + note + "\";\n");
+    output.append("    location    \"constant/polyMesh\";\n    object      ");
+    output.append(object);
+    output.append(";\n}\n\n");
+}
+
+template <class List, class WriteOne>
+void write_list(Output& output, const List& list, const WriteOne& write_one) {
+    output.append_number(std::uint64_t{list.size()});
+    output.append("\n(\n");
+    for (const auto& entry : list) {
+        write_one(entry);
+        output.append('\n');
+    }
+    output.append(")\n");
+}
+
+std::string note_of(const mesh::PolyhedralMesh& mesh) {
+    return "nPoints:" + std::to_string(mesh.points.size()) + "  nCells:" + std::to_string(mesh.cells) +
+           "  nFaces:" + std::to_string(mesh.owner.size()) +
+           "  nInternalFaces:" + std::to_string(mesh.neighbour.size());
+}
+
+void write_points(Output& output, const mesh::PolyhedralMesh& mesh) {
+    begin(output, "vectorField", "points");
+    write_list(output, mesh.points, [&](const Vec3& p) {
+        output.append('(');
+        output.append_number(p.x);
+        output.append(' ');
+        output.append_number(p.y);
+        output.append(' ');
+        output.append_number(p.z);
+        output.append(')');
+    });
+}
+
+void write_faces(Output& output, const mesh::PolyhedralMesh& mesh) {
+    begin(output, "faceList", "faces");
+    std::size_t face = 0;
+    write_list(output, mesh.owner, [&](std::uint32_t) {
+        const std::uint32_t first = mesh.face_begin[face], end = mesh.face_begin[face + 1];
+        ++face;
+        output.append_number(std::uint64_t{end - first});
+        for (std::uint32_t i = first; i < end; ++i) {
+            output.append(i == first ? '(' : ' ');
+            output.append_number(std::uint64_t{mesh.face_points[i]});
+        }
+        output.append(')');
+    });
+}
+
+void write_labels(Output& output, const char* object, const std::vector<std::uint32_t>& labels,
+                  const std::string& note) {
+    begin(output, "labelList", object, note);
+    write_list(output, labels, [&](std::uint32_t label) { output.append_number(std::uint64_t{label}); });
+}
+
+void write_boundary(Output& output, const mesh::PolyhedralMesh& mesh) {
+    begin(output, "polyBoundaryMesh", "boundary");
+    write_list(output, mesh.patches, [&](const mesh::PolyhedralMesh::Patch& patch) {
+        output.append("    " + word(patch.name) +
+                      "\n    {\n        type            patch;\n        nFaces          " +
+                      std::to_string(patch.faces) + ";\n        startFace       " +
+                      std::to_string(patch.first_face) + ";\n    }");
+    });
+}
+
+void write_zones(Output& output, const mesh::PolyhedralMesh& mesh) {
+    begin(output, "regIOobject", "cellZones");
+    write_list(output, mesh.zones, [&](const mesh::PolyhedralMesh::Zone& zone) {
+        output.append(word(zone.name) + "\n{\n    type cellZone;\n    cellLabels      List<label>\n");
+        write_list(output, zone.cells,
+                   [&](std::uint32_t cell) { output.append_number(std::uint64_t{cell}); });
+        output.append(";\n}");
+    });
+}
+
+void write_levels(Output& output, const mesh::PolyhedralMesh& mesh) {
+    begin(output, "labelList", "cellLevel");
+    write_list(output, mesh.cell_level,
+               [&](int level) { output.append_number(static_cast<std::uint64_t>(level)); });
+}
+
+Error trouble(const fs::path& path, const std::error_code& code) {
+    Place place;
+    place.file = path.string();
+    return {ErrorCode::io, "cannot be written: " + code.message(), std::move(place)};
+}
+
+}  // namespace
+
+Result<WriteReport> write_openfoam(const std::string& path, const mesh::PolyhedralMesh& mesh,
+                                   const Context& context) {
+    if (path == "-")
+        return Error{
+            ErrorCode::unsupported, "an OpenFOAM mesh is a folder and cannot go to standard output", {}};
+    const fs::path constant = fs::path(path) / "constant", final = constant / "polyMesh";
+    const fs::path part = constant / ("polyMesh." + std::to_string(::getpid()) + ".part");
+    std::error_code code;
+    fs::create_directories(part, code);
+    if (code) return trouble(part, code);
+
+    WriteReport report;
+    report.format = "openfoam";
+    const std::string note = note_of(mesh);
+    const std::array<std::pair<const char*, std::function<void(Output&)>>, 7> files{{
+        {"points", [&](Output& output) { write_points(output, mesh); }},
+        {"faces", [&](Output& output) { write_faces(output, mesh); }},
+        {"owner", [&](Output& output) { write_labels(output, "owner", mesh.owner, note); }},
+        {"neighbour", [&](Output& output) { write_labels(output, "neighbour", mesh.neighbour, note); }},
+        {"boundary", [&](Output& output) { write_boundary(output, mesh); }},
+        {"cellZones", [&](Output& output) { write_zones(output, mesh); }},
+        {"cellLevel", [&](Output& output) { write_levels(output, mesh); }},
+    }};
+    std::error_code ignored;
+    for (const auto& [name, write] : files) {
+        Result<Output> output = Output::to_file((part / name).string());
+        Status status = Done{};
+        if (output) {
+            write(*output);
+            report.bytes += output->size();
+            status = output->commit();
+        } else {
+            status = output.error();
+        }
+        if (context.cancelled()) status = Context::cancelled_error();
+        if (!status) {
+            fs::remove_all(part, ignored);
+            return status.error();
+        }
+    }
+    fs::remove_all(final, code);
+    if (!code) fs::rename(part, final, code);
+    if (code) {
+        fs::remove_all(part, ignored);
+        return trouble(final, code);
+    }
+    return report;
+}
+
+}  // namespace octavo::io

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "models.hpp"
+#include <octavo/hexmesh/build.hpp>
+#include <octavo/io/read.hpp>
+#include <octavo/mesh/shapes.hpp>
+
+namespace octavo::hexmesh {
+namespace {
+
+using mesh::Mesh;
+
+Mesh moved(Mesh mesh, Vec3 by) {
+    for (Vec3& vertex : mesh.vertices) vertex = vertex + by;
+    return mesh;
+}
+
+Mesh reversed(Mesh mesh) {
+    for (mesh::Triangle& t : mesh.triangles) std::swap(t[0], t[1]);
+    return mesh;
+}
+
+Mesh joined(Mesh a, const Mesh& b) {
+    const auto offset = static_cast<mesh::VertexIndex>(a.vertices.size());
+    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+    for (const mesh::Triangle& t : b.triangles)
+        a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+    return a;
+}
+
+/// Everything a mesh of hexahedra promises about itself.
+void expect_consistent(const Built& built) {
+    const mesh::HexMesh& mesh = built.mesh;
+    ASSERT_EQ(mesh.corners.size(), mesh.cells.size());
+    ASSERT_EQ(mesh.set_of_cell.size(), mesh.cells.size());
+    ASSERT_TRUE(std::is_sorted(mesh.cells.begin(), mesh.cells.end()));
+    std::size_t boundary_entries = 0;
+    for (mesh::CellIndex cell = 0; cell < mesh.cells.size(); ++cell)
+        boundary_entries += mesh.set_of(cell).boundary.size();
+    if (!mesh.fractions.empty()) {
+        EXPECT_EQ(mesh.fractions.size(), boundary_entries);
+    }
+    for (const double fraction : mesh.fractions)
+        ASSERT_TRUE(fraction > -1e-9 && fraction < 1 + 1e-9) << fraction;
+    EXPECT_EQ(std::set<exact::Point>(mesh.nodes.begin(), mesh.nodes.end()).size(), mesh.nodes.size());
+}
+
+void expect_exact_volumes(const Built& built) {
+    for (const SolidReport& solid : built.report.solids)
+        EXPECT_NEAR(solid.filled_volume / solid.exact_volume, 1, 1e-9);
+}
+
+TEST(Build, FillsEachSolidToItsExactVolume) {
+    const std::vector<Mesh> solids{mesh::icosphere(1, 6),
+                                   mesh::gear(),
+                                   mesh::bearing_housing(),
+                                   mesh::torus(2, 0.7, 40, 17),
+                                   mesh::displaced_sphere(12),
+                                   mesh::menger_sponge(2),
+                                   moved(mesh::tetrahedron(), {1e3, 0.1, -7})};
+    for (const Mesh& solid : solids)
+        for (const int level : {3, 5}) {
+            const Result<Built> built = build(std::span(&solid, 1), {.level = level});
+            ASSERT_TRUE(built) << built.error().describe();
+            expect_consistent(*built);
+            expect_exact_volumes(*built);
+            EXPECT_GT(built->report.boundary_cells + built->report.inside_cells, 0u);
+        }
+}
+
+TEST(Build, GivesAbsoluteCellsOnMultiplesOfTheirSide) {
+    // A part alone and beside another one far away: the same cells where the part is.
+    const Mesh part = mesh::bearing_housing();
+    const std::vector<Mesh> both{part, moved(mesh::cube(3), {500, 20, 30})};
+    const Options options{.precision = 3};
+    const Result<Built> alone = build(std::span(&part, 1), options), together = build(both, options);
+    ASSERT_TRUE(alone && together);
+    EXPECT_EQ(alone->report.smallest_cell, 2);
+    EXPECT_EQ(together->report.smallest_cell, 2);
+    const auto boundary_corners = [](const Built& built) {
+        std::set<std::array<double, 3>> corners;
+        for (mesh::CellIndex cell = 0; cell < built.mesh.cells.size(); ++cell) {
+            const auto& boundary = built.mesh.set_of(cell).boundary;
+            if (std::find(boundary.begin(), boundary.end(), 0u) == boundary.end()) continue;
+            const Vec3 low = built.mesh.position(built.mesh.corners[cell][0]);
+            EXPECT_EQ(low.x, 2 * std::floor(low.x / 2));
+            corners.insert({low.x, low.y, low.z});
+        }
+        return corners;
+    };
+    EXPECT_EQ(boundary_corners(*alone), boundary_corners(*together));
+}
+
+TEST(Build, FitsABoxOnTheGridWithoutBoundaryCells) {
+    const Mesh box = mesh::box({0, 0, 0}, {1, 2, 0.5});
+    const Result<Built> built = build(std::span(&box, 1), {.precision = 0.25, .largest = 0.25});
+    ASSERT_TRUE(built);
+    EXPECT_EQ(built->report.boundary_cells, 0u);
+    EXPECT_EQ(built->report.inside_cells, 4u * 8 * 2);
+    EXPECT_EQ(built->mesh.nodes.size(), 5u * 9 * 3);
+    EXPECT_EQ(built->mesh.hanging_nodes(), 0u);
+    EXPECT_EQ(built->report.solids[0].filled_volume, 1);
+}
+
+TEST(Build, KnowsWhichSolidsEachCellLiesIn) {
+    // Two overlapping boxes on the grid and one that touches the first: every cell can be told by its centre.
+    const std::vector<std::pair<Vec3, Vec3>> boxes{
+        {{0, 0, 0}, {2, 2, 2}}, {{1, 1, 0}, {3, 3, 2}}, {{-1, 0, 0}, {0, 2, 2}}};
+    std::vector<Mesh> solids;
+    for (const auto& [low, high] : boxes) solids.push_back(mesh::box(low, high));
+    const Result<Built> built = build(solids, {.precision = 0.5, .largest = 0.5});
+    ASSERT_TRUE(built);
+    EXPECT_EQ(built->mesh.cells.size(), (64u + 64 - 16) + 32);
+    for (mesh::CellIndex cell = 0; cell < built->mesh.cells.size(); ++cell) {
+        const Vec3 centre = 0.5 * (built->mesh.position(built->mesh.corners[cell][0]) +
+                                   built->mesh.position(built->mesh.corners[cell][7]));
+        mesh::SolidSet expected;
+        for (mesh::SolidIndex solid = 0; solid < boxes.size(); ++solid) {
+            bool inside = true;
+            for (int axis = 0; axis < 3; ++axis)
+                inside = inside && boxes[solid].first[axis] < centre[axis] &&
+                         centre[axis] < boxes[solid].second[axis];
+            if (inside) expected.inside.push_back(solid);
+        }
+        ASSERT_EQ(built->mesh.set_of(cell), expected);
+    }
+    expect_exact_volumes(*built);
+}
+
+TEST(Build, KeepsInnerVoidsEmpty) {
+    const Mesh shell = joined(mesh::icosphere(1, 8), reversed(mesh::icosphere(0.5, 8)));
+    const Result<Built> built = build(std::span(&shell, 1), {.precision = 0.07});
+    ASSERT_TRUE(built) << built.error().describe();
+    expect_exact_volumes(*built);
+    for (mesh::CellIndex cell = 0; cell < built->mesh.cells.size(); ++cell)
+        EXPECT_GT(length(built->mesh.position(built->mesh.corners[cell][0])), 0.3);
+}
+
+TEST(Build, GradesByBoxSolidAndCurvature) {
+    const std::vector<Mesh> solids{mesh::icosphere(1, 10), moved(mesh::icosphere(1, 10), {3, 0, 0})};
+    Options options{.precision = 0.25};
+    const Result<Built> plain = build(solids, options);
+    options.solids = {{.solid = 1, .surface = 0.0625, .interior = 0.125}};
+    options.boxes = {{{{-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}}, 0.05}};
+    const Result<Built> graded = build(solids, options);
+    ASSERT_TRUE(plain && graded);
+    expect_consistent(*graded);
+    expect_exact_volumes(*graded);
+    for (mesh::CellIndex cell = 0; cell < graded->mesh.cells.size(); ++cell) {
+        const double side = graded->mesh.lattice.unit() * graded->mesh.cells[cell].side();
+        const mesh::SolidSet& set = graded->mesh.set_of(cell);
+        if (!set.inside.empty() && set.inside[0] == 1) {
+            EXPECT_LE(side, 0.125);
+        }
+        if (!set.boundary.empty()) {
+            EXPECT_LE(side, set.boundary[0] == 1 ? 0.0625 : 0.25);
+        }
+        const Vec3 low = graded->mesh.position(graded->mesh.corners[cell][0]);
+        if (std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(low.z)}) < 0.19) {
+            EXPECT_LE(side, 0.05);
+        }
+    }
+    EXPECT_EQ(plain->report.smallest_cell, 0.25);
+    EXPECT_EQ(graded->report.smallest_cell, 0.03125);
+
+    const Mesh cylinder = mesh::cylinder(1, 2, 64);
+    const Result<Built> curved = build(
+        std::span(&cylinder, 1), {.precision = 0.5, .curvature = {.smallest = 0.0625, .angle_degrees = 5}});
+    ASSERT_TRUE(curved);
+    expect_exact_volumes(*curved);
+    EXPECT_EQ(curved->report.smallest_cell, 0.0625);
+}
+
+TEST(Build, RefinesThinWallsByProximity) {
+    const Mesh plate = mesh::box({0.01, 0.02, 0.03}, {2, 2, 0.06});  // in one layer down to cells of 1/16
+    const Result<Built> coarse = build(std::span(&plate, 1), {.precision = 0.25});
+    const Result<Built> fine =
+        build(std::span(&plate, 1), {.precision = 0.25, .proximity = {.smallest = 0.03125}});
+    ASSERT_TRUE(coarse && fine);
+    EXPECT_EQ(coarse->report.inside_cells, 0u);
+    EXPECT_EQ(fine->report.smallest_cell, 0.03125);
+    expect_exact_volumes(*fine);
+}
+
+TEST(Build, GivesTheSameBytesForAnyNumberOfThreads) {
+    const std::vector<Mesh> solids{mesh::displaced_sphere(40), moved(mesh::gear(), {0.5, 0, 0})};
+    const Options options{.precision = 0.5, .solids = {{.solid = 0, .surface = 0.03}}};
+    const Result<Built> one = build(solids, options, {.threads = 1, .on_progress = {}}),
+                        two = build(solids, options, {.threads = 2, .on_progress = {}});
+    ASSERT_TRUE(one && two);
+    EXPECT_EQ(one->mesh.cells, two->mesh.cells);
+    EXPECT_EQ(one->mesh.corners, two->mesh.corners);
+    EXPECT_EQ(one->mesh.nodes, two->mesh.nodes);
+    EXPECT_EQ(one->mesh.sets, two->mesh.sets);
+    EXPECT_EQ(one->mesh.set_of_cell, two->mesh.set_of_cell);
+    EXPECT_EQ(one->mesh.fractions, two->mesh.fractions);
+    EXPECT_EQ(one->mesh.edge_hanging, two->mesh.edge_hanging);
+    EXPECT_EQ(one->mesh.face_hanging, two->mesh.face_hanging);
+}
+
+TEST(Build, RefusesWhatIsNoSolidAndNamesFacets) {
+    Mesh open = mesh::icosphere(1, 3);
+    open.triangles.erase(open.triangles.begin() + 7);
+    const Result<Built> leaking = build(std::span(&open, 1));
+    ASSERT_FALSE(leaking);
+    EXPECT_EQ(leaking.error().code, ErrorCode::not_a_solid);
+    EXPECT_FALSE(leaking.error().place.faces.empty());
+    const Result<Built> closed =
+        build(std::span(&open, 1), {.level = 4, .open = classic::OpenPolicy::winding});
+    ASSERT_TRUE(closed) << closed.error().describe();
+    EXPECT_FALSE(closed->report.solids[0].open_facets.empty());
+    expect_exact_volumes(*closed);
+
+    const Mesh inside_out = reversed(mesh::icosphere(1, 3));
+    const Mesh doubled = joined(mesh::icosphere(1, 3), moved(mesh::icosphere(1, 3), {0.9, 0, 0}));
+    for (const Mesh& mesh : {inside_out, doubled}) {
+        const Result<Built> refused = build(std::span(&mesh, 1), {.level = 4});
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::not_a_solid);
+        EXPECT_FALSE(refused.error().place.faces.empty());
+    }
+    const Result<Built> accepted =
+        build(std::span(&doubled, 1), {.level = 4, .overlaps = OverlapPolicy::winding});
+    ASSERT_TRUE(accepted);
+    EXPECT_TRUE(accepted->report.overlaps);
+}
+
+TEST(Build, RefusesOptionsThatMakeNoSense) {
+    const Mesh solid = mesh::cube();
+    const auto code = [&](const Options& options) {
+        const Result<Built> built = build(std::span(&solid, 1), options);
+        return built ? ErrorCode::internal : built.error().code;
+    };
+    EXPECT_EQ(code({.precision = -1}), ErrorCode::bad_input);
+    EXPECT_EQ(code({.precision = 1e-9}), ErrorCode::limit);
+    EXPECT_EQ(code({.level = 22}), ErrorCode::bad_input);
+    EXPECT_EQ(code({.solids = {{.solid = 1, .surface = 1}}}), ErrorCode::bad_input);
+    EXPECT_EQ(code({.boxes = {{{}, 1}}}), ErrorCode::bad_input);
+    const Result<Built> nothing = build({});
+    EXPECT_FALSE(nothing);
+    const std::atomic<bool> cancel = true;
+    const Result<Built> cancelled = build(std::span(&solid, 1), {}, {.on_progress = {}, .cancel = &cancel});
+    ASSERT_FALSE(cancelled);
+    EXPECT_EQ(cancelled.error().code, ErrorCode::cancelled);
+}
+
+TEST(Build, FillsRealModelsToTheirExactVolume) {
+    int tested = 0;
+    for (const char* name : {"mechanical/anchor-7k.off", "mechanical/knot.off", "mechanical/fandisk-13k.obj",
+                             "mechanical/plate-holes.stl", "classic/homer.off", "mechanical/snowflake.obj"}) {
+        OCTAVO_NEEDS_MODEL(name);
+        const auto model = io::read_mesh((tests::models_folder() / name).string());
+        ASSERT_TRUE(model) << name;
+        const Result<Built> built = build(std::span(&model->mesh, 1), {.level = 6});
+        ASSERT_TRUE(built) << name << ": " << built.error().describe();
+        expect_consistent(*built);
+        expect_exact_volumes(*built);
+        ++tested;
+    }
+    EXPECT_EQ(tested, 6);
+}
+
+}  // namespace
+}  // namespace octavo::hexmesh

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <gtest/gtest.h>
+
+#include <octavo/classic/crossing.hpp>
+#include <octavo/hexmesh/cell_volume.hpp>
+
+namespace octavo::hexmesh {
+namespace {
+
+using boost::multiprecision::cpp_rational;
+using exact::Point;
+using octree::Cell;
+using RationalPoint = std::array<cpp_rational, 3>;
+using Face = std::vector<RationalPoint>;
+
+/// The part of a closed convex polyhedron with sign · (coordinate − bound) ≥ 0, in exact rationals.
+std::vector<Face> cut(const std::vector<Face>& faces, std::size_t axis, const cpp_rational& bound, int sign) {
+    std::vector<Face> result;
+    std::vector<RationalPoint> cap;
+    const auto above = [&](const RationalPoint& p) -> cpp_rational { return sign * (p[axis] - bound); };
+    for (const Face& face : faces) {
+        Face kept;
+        for (std::size_t i = 0; i < face.size(); ++i) {
+            const RationalPoint &a = face[i], &b = face[(i + 1) % face.size()];
+            const cpp_rational da = above(a), db = above(b);
+            if (da >= 0) kept.push_back(a);
+            if (da == 0) cap.push_back(a);
+            if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
+                RationalPoint p;
+                for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + da / (da - db) * (b[k] - a[k]);
+                kept.push_back(p);
+                cap.push_back(p);
+            }
+        }
+        if (kept.size() >= 3) result.push_back(kept);
+    }
+    // The volume below is summed from a point of the cap, so that the cap itself need not be built.
+    if (!cap.empty()) result.push_back({cap[0]});
+    return result;
+}
+
+/// Volume by tetrahedra from `apex`, which must lie on every cap that is missing.
+cpp_rational volume_from(const std::vector<Face>& faces, const RationalPoint& apex) {
+    cpp_rational six = 0;
+    for (const Face& face : faces)
+        for (std::size_t i = 2; i < face.size(); ++i) {
+            std::array<RationalPoint, 3> e;
+            for (std::size_t k = 0; k < 3; ++k)
+                e[0][k] = face[0][k] - apex[k], e[1][k] = face[i - 1][k] - apex[k],
+                e[2][k] = face[i][k] - apex[k];
+            six += e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+                   e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+                   e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+        }
+    return six / 6;
+}
+
+/// Volume of tetrahedron ∩ {low ≤ p ≤ high}: the tetrahedron is the union of signed cones, so inclusion of orthants
+/// gives a box: V[low, high] = Σ ± V(orthant), and an orthant's three caps share their corner as apex.
+cpp_rational volume_in_orthant(const std::array<Point, 4>& tetrahedron,
+                               const std::array<std::int64_t, 3>& corner) {
+    constexpr std::array<std::array<std::size_t, 3>, 4> sides{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    std::vector<Face> faces;
+    for (const auto& side : sides) {
+        Face face;
+        for (const std::size_t v : side)
+            face.push_back({tetrahedron[v].x, tetrahedron[v].y, tetrahedron[v].z});
+        faces.push_back(face);
+    }
+    RationalPoint apex;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        apex[axis] = corner[axis];
+        faces = cut(faces, axis, cpp_rational(corner[axis]), 1);
+    }
+    return volume_from(faces, apex);
+}
+
+double expected_part(const std::array<Point, 4>& tetrahedron, const Cell& cell) {
+    cpp_rational volume = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Point low = cell.low, high = cell.high();
+        const std::array<std::int64_t, 3> at{corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                                             corner & 4 ? high.z : low.z};
+        const cpp_rational part = volume_in_orthant(tetrahedron, at);
+        if (std::popcount(static_cast<unsigned>(corner)) % 2)
+            volume -= part;
+        else
+            volume += part;
+    }
+    const cpp_rational side = cell.side();
+    return static_cast<double>(cpp_rational(volume / (side * side * side)));
+}
+
+/// The winding number of the displaced low corner, by stepping there from beyond the universe.
+int winding_at(const std::vector<classic::Facet>& facets, Point p) {
+    int winding = 0;
+    for (const classic::Facet& facet : facets)
+        winding += classic::crossing(facet, {-1, p.y, p.z}, 0, p.x + 1);
+    return winding;
+}
+
+std::int64_t volume6(const std::array<Point, 4>& t) {
+    const auto d = [&](std::size_t i, int axis) { return std::int64_t{t[i][axis]} - t[0][axis]; };
+    return d(1, 0) * (d(2, 1) * d(3, 2) - d(2, 2) * d(3, 1)) -
+           d(1, 1) * (d(2, 0) * d(3, 2) - d(2, 2) * d(3, 0)) +
+           d(1, 2) * (d(2, 0) * d(3, 1) - d(2, 1) * d(3, 0));
+}
+
+std::vector<classic::Facet> facets_of_tetrahedron(const std::array<Point, 4>& t) {
+    mesh::LatticeMesh mesh;
+    mesh.points.assign(t.begin(), t.end());
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    return *classic::facets_of(mesh);
+}
+
+/// Coordinates of a coarse grid, so that corners, edges and facets lie in walls and edges of cells all the time.
+TEST(FilledPart, IsTheExactPartOfTetrahedraOnTheWallsOfCells) {
+    std::mt19937 random(1);
+    constexpr std::int32_t step = 32;
+    int partly = 0;
+    for (int round = 0; round < 1200; ++round) {
+        std::array<Point, 4> t;
+        const auto coordinate = [&] {
+            return static_cast<std::int32_t>(random() % 9) * step / (1 + round % 2);
+        };
+        for (Point& p : t) p = {coordinate(), coordinate(), coordinate()};
+        if (volume6(t) == 0) continue;
+        if (volume6(t) < 0) std::swap(t[0], t[1]);
+        const std::vector<classic::Facet> facets = facets_of_tetrahedron(t);
+        std::vector<std::uint32_t> all(facets.size());
+        std::iota(all.begin(), all.end(), 0u);
+        const int level = octree::max_level - 2 + round % 2;
+        const std::int32_t side = octree::cell_side(level);
+        const Cell cell{
+            {static_cast<std::int32_t>(random() % 3) * side, static_cast<std::int32_t>(random() % 3) * side,
+             static_cast<std::int32_t>(random() % 3) * side},
+            level};
+        const double expected = expected_part(t, cell);
+        partly += expected > 0 && expected < 1;
+        ASSERT_NEAR(filled_part(facets, all, cell, winding_at(facets, cell.low)), expected, 1e-13) << round;
+    }
+    EXPECT_GT(partly, 200);
+}
+
+TEST(FilledPart, IsTheExactPartOfTetrahedraInGeneralPosition) {
+    std::mt19937 random(2);
+    for (int round = 0; round < 600; ++round) {
+        std::uniform_int_distribution<std::int32_t> place(0, round % 2 ? 3000 : exact::universe_side - 1);
+        std::array<Point, 4> t;
+        for (Point& p : t) p = {place(random), place(random), place(random)};
+        const std::vector<classic::Facet> forwards = facets_of_tetrahedron(t);
+        const int level = round % 2 ? octree::max_level - 5 : 3;
+        const Cell cell =
+            octree::Cell::of(octree::CellKey::at({place(random), place(random), place(random)}, level));
+        std::vector<std::uint32_t> all{0, 1, 2, 3};
+        const double part = filled_part(forwards, all, cell, winding_at(forwards, cell.low));
+        // A tetrahedron inside out counts negatively.
+        ASSERT_NEAR(part, expected_part(t, cell), 1e-11) << round;
+    }
+}
+
+}  // namespace
+}  // namespace octavo::hexmesh
