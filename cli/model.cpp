@@ -16,6 +16,7 @@ ModelKind kind_of(const std::string& path, const std::string& format) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".csg") return ModelKind::csg;
     if (extension == ".oct") return ModelKind::octree;
+    if (extension == ".bpo") return ModelKind::bp_octree;
     return ModelKind::mesh;
 }
 
@@ -46,6 +47,36 @@ Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh) {
         session.warn(
             "the facets point inwards, so hardly anything counts as inside; octavo repair turns them over");
     return snapped;
+}
+
+Result<bp_octree::ReadBpo> read_bp_octree(Session& session, const Context& context, const std::string& path,
+                                          const bp_octree::ReadBpoOptions& options) {
+    session.inputs.push_back(path);
+    Result<bp_octree::ReadBpo> read =
+        session.timed("read", [&] { return bp_octree::read_bpo(path, options, context); });
+    if (read && read->is_partial)
+        session.warn(fmt::format("the file ends early; levels 0 to {} are there", read->tree.deepest()));
+    return read;
+}
+
+Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& context, const std::string& path,
+                                          const std::string& format) {
+    if (kind_of(path, format) == ModelKind::bp_octree) {
+        Result<bp_octree::ReadBpo> read = read_bp_octree(session, context, path);
+        if (!read) return std::move(read).error();
+        return std::move(read->tree.mesh);
+    }
+    Result<io::ReadMesh> read = read_mesh(session, context, path, format);
+    if (!read) return std::move(read).error();
+    Result<mesh::Snapped> snapped = snap(session, read->mesh);
+    if (!snapped) return in_file(std::move(snapped).error(), path);
+    if (snapped->report.moved_vertices)
+        session.warn(fmt::format(
+            "{} of {} vertices were rounded to the lattice, by at most {:.3g}; the answers are exact for "
+            "the rounded solid",
+            grouped(snapped->report.moved_vertices), grouped(read->mesh.vertices.size()),
+            snapped->report.largest_displacement));
+    return std::move(snapped->mesh);
 }
 
 Error in_file(Error error, const std::string& path) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "session.hpp"
+#include <octavo/bp_octree/bpo_file.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/io/write.hpp>
 #include <octavo/mesh/snap.hpp>
@@ -14,13 +15,22 @@
 namespace octavo::cli {
 
 /// What a file's extension says it is, as far as verbs care.
-enum class ModelKind { mesh, csg, octree };
+enum class ModelKind { mesh, csg, octree, bp_octree };
 
 ModelKind kind_of(const std::string& path, const std::string& format);
 
 /// Reads a mesh; remembers `path` among the inputs.
 Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const std::string& path,
                                const std::string& format = "");
+
+/// Reads a mesh and snaps it, or takes the triangles of a BP-octree (.bpo), which are on a lattice already. Warns when
+/// snapping moved vertices, since answers are exact for the snapped solid.
+Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& context, const std::string& path,
+                                          const std::string& format = "");
+
+/// Reads a BP-octree; remembers `path` among the inputs, and warns when only its beginning is there.
+Result<bp_octree::ReadBpo> read_bp_octree(Session& session, const Context& context, const std::string& path,
+                                          const bp_octree::ReadBpoOptions& options = {});
 
 /// Writes a mesh; `path` "-" takes stdout over.
 Result<io::WriteReport> write_mesh(Session& session, const Context& context, const std::string& path,

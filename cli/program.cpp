@@ -11,7 +11,7 @@ namespace {
 constexpr const char* footer =
     "Formats follow from the file's extension: stl obj ply off 3mf and more to read meshes, csg for OpenSCAD "
     "trees, oct\n"
-    "for octrees; - is stdin or stdout. Data goes to stdout, messages to stderr.\n"
+    "and bpo for octrees; - is stdin or stdout. Data goes to stdout, messages to stderr.\n"
     "\n"
     "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad input, 4 a limit was reached, 5 internal error, "
     "130 interrupted.\n"
@@ -51,8 +51,10 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     add_boolean(*this);
     add_shape(*this);
     add_octree(*this);
+    add_build(*this);
     add_stats(*this);
     add_contains(*this);
+    add_distance(*this);
 
     add_completion(*this);
     add_man(*this);

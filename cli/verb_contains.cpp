@@ -21,8 +21,8 @@ struct ContainsOptions {
 
 Result<std::vector<query::Side>> sides_of(Session& session, const Context& context,
                                           const ContainsOptions& options) {
-    Result<io::ReadMesh> read = read_mesh(session, context, options.model, options.model_format);
-    if (!read) return std::move(read).error();
+    Result<mesh::LatticeMesh> solid = read_on_lattice(session, context, options.model, options.model_format);
+    if (!solid) return std::move(solid).error();
     session.inputs.push_back(options.points);
     Result<io::ReadPoints> points = session.timed(
         "read", [&] { return io::read_points(options.points, {options.points_format}, context); });
@@ -33,18 +33,10 @@ Result<std::vector<query::Side>> sides_of(Session& session, const Context& conte
     if (nowhere)
         session.warn(fmt::format("{} points have a coordinate that is not a number; they are told as outside",
                                  nowhere));
-    Result<mesh::Snapped> snapped = snap(session, read->mesh);
-    if (!snapped) return in_file(std::move(snapped).error(), options.model);
-    if (snapped->report.moved_vertices)
-        session.warn(fmt::format(
-            "{} of {} vertices were rounded to the lattice, by at most {:.3g}; the answers are exact for "
-            "the rounded solid",
-            grouped(snapped->report.moved_vertices), grouped(read->mesh.vertices.size()),
-            snapped->report.largest_displacement));
     query::InsideOptions asking;
     asking.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
     Result<query::InsideQuery> inside =
-        session.timed("build", [&] { return query::InsideQuery::build(snapped->mesh, asking, context); });
+        session.timed("build", [&] { return query::InsideQuery::build(*solid, asking, context); });
     if (!inside) return in_file(std::move(inside).error(), options.model);
     return session.timed("query", [&] { return (*inside)(points->points, context); });
 }
@@ -87,7 +79,9 @@ void add_contains(Program& program) {
     CLI::App* verb =
         program.verb("contains", "Analyse", "Tell for each point whether it is inside, on or outside a solid",
                      [options](Session& session) { return contains(session, *options); });
-    verb->add_option("MODEL", options->model, "A closed mesh")->required()->type_name("FILE");
+    verb->add_option("MODEL", options->model, "A closed mesh, or a BP-octree (.bpo)")
+        ->required()
+        ->type_name("FILE");
     verb->add_option("POINTS", options->points, "The points: csv, xyz, npy or ply; - is stdin")
         ->required()
         ->type_name("FILE");

@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bp_octree_facts.hpp"
+#include "model.hpp"
 #include "octree_facts.hpp"
 #include "program.hpp"
 #include <octavo/io/oct.hpp>
 #include <octavo/octree/oct_format.hpp>
 
-// `octavo stats FILE.oct`: what is inside a file that Octavo built.
+// `octavo stats FILE`: what is inside a file that Octavo built (.oct, .bpo).
 
 namespace octavo::cli {
 namespace {
 
+Result<ExitCode> bp_octree_stats(Session& session, const Context& context, const std::string& input) {
+    bp_octree::ReadBpoOptions reading;
+    reading.partial = bp_octree::ReadBpoOptions::Partial::accept;
+    Result<bp_octree::ReadBpo> file = read_bp_octree(session, context, input, reading);
+    if (!file) return std::move(file).error();
+    session.result = json_of(file->tree, file->bytes_to_level, file->bytes);
+    session.text = text_of(file->tree, file->bytes_to_level, file->bytes);
+    return ExitCode::ok;
+}
+
 Result<ExitCode> stats(Session& session, const std::string& input) {
     const Context context = session.context();
+    if (kind_of(input, "") == ModelKind::bp_octree) return bp_octree_stats(session, context, input);
     session.inputs.push_back(input);
     Result<octree::Octree> tree = session.timed("read", [&] { return io::read_octree(input, context); });
     if (!tree) return std::move(tree).error();
@@ -26,7 +39,9 @@ void add_stats(Program& program) {
     const auto input = std::make_shared<std::string>();
     CLI::App* verb = program.verb("stats", "Trees", "Tell what is inside an octree file",
                                   [input](Session& session) { return stats(session, *input); });
-    verb->add_option("FILE", *input, "An octree (.oct); - is stdin")->required()->type_name("FILE");
+    verb->add_option("FILE", *input, "An octree (.oct; - is stdin) or a BP-octree (.bpo)")
+        ->required()
+        ->type_name("FILE");
 }
 
 }  // namespace octavo::cli

@@ -35,12 +35,15 @@ Result<BpOctree> decode(std::span<const std::uint8_t> bytes, const DecodeOptions
 
 /// The levels that a file's first bytes hold completely; as much of a download as can be shown. Errors: as `decode`,
 /// and bad_input when not even level 0 is there.
-Result<BpOctree> decode_beginning(std::span<const std::uint8_t> bytes);
+Result<BpOctree> decode_beginning(std::span<const std::uint8_t> bytes, const DecodeOptions& options = {});
 
 /// True when the bytes begin like a .bpo file.
 bool looks_like_bpo(std::span<const std::uint8_t> bytes);
 
 /// Bytes of the file up to and with each level; the last one is everything before the triangles. Errors: as `decode`.
 Result<std::vector<std::uint64_t>> bytes_to_level(std::span<const std::uint8_t> bytes);
+
+/// How long the whole file is, of which these bytes are the beginning. Errors: as `decode`.
+Result<std::uint64_t> size_in_head(std::span<const std::uint8_t> bytes);
 
 }  // namespace octavo::bp_octree

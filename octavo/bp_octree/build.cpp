@@ -156,15 +156,19 @@ class Builder {
 
     SelectionOptions selection(int level) const {
         SelectionOptions selection;
-        if (options_.planes != PlaneChoice::greedy) selection.most_planes = 0;
         // Powers of two on the least gain. Coarse levels have few planes that all later levels inherit: with these
         // they come within 1 % of the convex hulls of the cells. Below level 5 planes are many and each is worth
         // little: a quarter fewer of them at level 7 costs 0.1 % of volume.
-        constexpr std::array<double, 8> finer{8, 7, 4, 2, 0, 0, -0.5, -2.2};
+        constexpr std::array<double, 8> finer{8, 7, 3.5, 2, 0, 0, -0.5, -2.2};
         const std::size_t index = std::min(static_cast<std::size_t>(level), finer.size() - 1);
         selection.least_gain = options_.least_gain * std::exp2(-finer[index]);
+        // The thesis has 1 % of the triangles at the root and half as many in each node of the next level; a fifth of
+        // that for its smallest model is the limit here, and only level 1 comes near it.
+        if (level == 1) selection.most_planes = 50;
+        if (options_.planes != PlaneChoice::greedy) selection.most_planes = 0;
         const bool coarse = level < 4;
-        selection.refine_steps = options_.quality == Quality::fast && !coarse ? 1 : 3;
+        selection.refine_steps = options_.quality == Quality::fast && !coarse ? 1 : coarse ? 4 : 3;
+        selection.vertex_rounds = coarse ? 4 : options_.quality == Quality::fast ? 0 : 1;
         return selection;
     }
 

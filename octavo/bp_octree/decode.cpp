@@ -234,7 +234,7 @@ Result<BpOctree> decode(std::span<const std::uint8_t> bytes, const DecodeOptions
     return tree;
 }
 
-Result<BpOctree> decode_beginning(std::span<const std::uint8_t> bytes) {
+Result<BpOctree> decode_beginning(std::span<const std::uint8_t> bytes, const DecodeOptions& options) {
     auto opened = open(bytes);
     if (!opened) return opened.error();
     int complete = static_cast<int>(opened->head.levels.size()) - 1;
@@ -246,7 +246,7 @@ Result<BpOctree> decode_beginning(std::span<const std::uint8_t> bytes) {
         }
     }
     if (complete < 0) return damaged("it ends before its first level", bytes.size());
-    return decode_levels(*opened, bytes, complete);
+    return decode_levels(*opened, bytes, std::clamp(options.levels, 0, complete));
 }
 
 bool looks_like_bpo(std::span<const std::uint8_t> bytes) {
@@ -262,6 +262,12 @@ Result<std::vector<std::uint64_t>> bytes_to_level(std::span<const std::uint8_t> 
         sizes[entry.level] = std::max(sizes[entry.level], entry.offset + entry.size);
     }
     return sizes;
+}
+
+Result<std::uint64_t> size_in_head(std::span<const std::uint8_t> bytes) {
+    auto head = get_head(bytes);
+    if (!head) return head.error();
+    return head->head.file_size;
 }
 
 }  // namespace octavo::bp_octree

@@ -55,7 +55,14 @@ class Selection {
     std::vector<BoundingPlane> run() {
         std::vector<BoundingPlane> planes;
         std::make_heap(heap_.begin(), heap_.end(), less_gain);
-        while (planes.size() < options_.most_planes && !heap_.empty()) {
+        int rounds = options_.vertex_rounds;
+        while (planes.size() < options_.most_planes) {
+            if (heap_.empty()) {
+                if (rounds-- <= 0) break;
+                propose_at_vertices();
+                std::make_heap(heap_.begin(), heap_.end(), less_gain);
+                if (heap_.empty()) break;
+            }
             std::pop_heap(heap_.begin(), heap_.end(), less_gain);
             Candidate best = heap_.back();
             heap_.pop_back();
@@ -97,6 +104,31 @@ class Selection {
     Candidate measured(Direction u) const {
         const std::int32_t reach = points().support(u);
         return {gain_of(u, reach), u, reach, taken_};
+    }
+
+    /// The directions that part the envelope's vertices from the content: what no normal of a face points to.
+    void propose_at_vertices() {
+        const std::vector<Vec3> vertices = envelope_.vertices();
+        for (const Vec3& vertex : vertices) propose(parting_direction(vertex));
+    }
+
+    /// About the direction from the nearest point of the content's hull to `outside`, by the conditional gradient
+    /// method (M. Frank and P. Wolfe, 1956): some steps, for the gain is measured anyway.
+    Direction parting_direction(Vec3 outside) const {
+        constexpr int steps = 8;
+        const Vec3 middle = points().point(points().size() / 2);
+        Vec3 away = outside - middle;
+        Vec3 nearest = points().point(points().farthest(nearest_direction(away.x, away.y, away.z)));
+        for (int i = 0; i < steps; ++i) {
+            away = outside - nearest;
+            const Vec3 ahead = points().point(points().farthest(nearest_direction(away.x, away.y, away.z)));
+            const Vec3 step = ahead - nearest;
+            const double gain = dot(away, step), square = dot(step, step);
+            if (!(gain > 0) || square == 0) break;
+            nearest = nearest + std::min(1.0, gain / square) * step;
+        }
+        away = outside - nearest;
+        return nearest_direction(away.x, away.y, away.z);
     }
 
     /// Uphill from a candidate in steps of 16, 8, 4 … of the 127 along each tangential direction.

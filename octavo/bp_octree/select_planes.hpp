@@ -19,7 +19,8 @@
 //
 // Candidates are directions only, each as tight as the content allows: 26 fixed ones, mean normals of the faces by
 // bins of direction, and with `refine`, the directions round each plane about to be taken, in ever smaller steps,
-// uphill in volume. That last step finds the planes that lean on several bulges at once and that no face has.
+// uphill in volume. That last step finds the planes that lean on several bulges at once and that no face has. When all
+// are used up, the vertices of the envelope propose the directions that part them from the content.
 
 namespace octavo::bp_octree {
 
@@ -27,6 +28,8 @@ struct SelectionOptions {
     double least_gain = 1e-3;  ///< stop when no plane cuts more than this part of the cell's volume
     std::size_t most_planes = 128;
     int refine_steps = 3;  ///< halvings of the step in the search round a plane; 0 does without
+    int vertex_rounds =
+        1;  ///< how often directions are proposed anew where vertices of the envelope stick out
 };
 
 /// The planes for a cell: every point of `content` lies within each of them, which is exact. `envelope` is what

@@ -77,4 +77,12 @@ mesh::Mesh to_mesh(const BpOctree& tree, const ToMeshOptions& options, const Con
     return Drawing(tree, options, context).run();
 }
 
+mesh::Mesh exact_mesh(const BpOctree& tree) {
+    mesh::Mesh mesh;
+    mesh.vertices.reserve(tree.mesh.points.size());
+    for (const exact::Point p : tree.mesh.points) mesh.vertices.push_back(tree.mesh.lattice.to_world(p));
+    mesh.triangles = tree.mesh.triangles;
+    return mesh;
+}
+
 }  // namespace octavo::bp_octree

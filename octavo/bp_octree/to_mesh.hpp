@@ -19,4 +19,7 @@ struct ToMeshOptions {
 /// Vertices are rounded to doubles; `sources` tell the node of each triangle (operand 0, face = number of the node).
 mesh::Mesh to_mesh(const BpOctree& tree, const ToMeshOptions& options = {}, const Context& context = {});
 
+/// The triangles themselves. Lattice points are exact doubles, so nothing is rounded.
+mesh::Mesh exact_mesh(const BpOctree& tree);
+
 }  // namespace octavo::bp_octree

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "bp_octree_facts.hpp"
+#include "model.hpp"
+#include "option_checks.hpp"
+#include "program.hpp"
+#include <octavo/bp_octree/build.hpp>
+#include <octavo/bp_octree/certify.hpp>
+
+// `octavo build FILE -o OUT.bpo`: the BP-octree of a solid, nested convex envelopes from coarse to fine.
+
+namespace octavo::cli {
+namespace {
+
+struct BuildOptions {
+    std::string input, output, format, quality = "normal", planes = "greedy";
+    int depth = 9, leaf_triangles = 50;
+    double gain = 1e-3, part = 0.01;
+    bool certify = false;
+};
+
+bp_octree::BuildOptions building(const BuildOptions& options) {
+    bp_octree::BuildOptions building;
+    building.depth = options.depth;
+    building.leaf_triangles = static_cast<std::size_t>(options.leaf_triangles);
+    building.quality = options.quality == "fast" ? bp_octree::Quality::fast : bp_octree::Quality::normal;
+    building.planes =
+        options.planes == "k-medoids" ? bp_octree::PlaneChoice::k_medoids : bp_octree::PlaneChoice::greedy;
+    building.least_gain = options.gain;
+    building.k_medoids.part = options.part;
+    return building;
+}
+
+Result<ExitCode> build(Session& session, const BuildOptions& options) {
+    const Context context = session.context();
+    if (same_file(options.input, options.output)) return would_overwrite(options.output);
+    if (!options.output.empty() && options.output != "-" &&
+        kind_of(options.output, "") != ModelKind::bp_octree)
+        return Error{ErrorCode::unsupported,
+                     "BP-octrees are written as .bpo, and the output is " + options.output,
+                     {}};
+    Result<mesh::LatticeMesh> mesh = read_on_lattice(session, context, options.input, options.format);
+    if (!mesh) return std::move(mesh).error();
+    Result<bp_octree::BpOctree> tree =
+        session.timed("build", [&] { return bp_octree::build(*mesh, building(options), context); });
+    if (!tree) return in_file(std::move(tree).error(), options.input);
+    if (!tree->is_solid)
+        session.warn("the surface is open; it is enveloped as a surface, and nothing counts as inside");
+    if (options.certify) {
+        Status proved = session.timed("certify", [&] { return bp_octree::certify(*tree, context); });
+        // What `build` makes is right by construction; anything else is a defect of Octavo.
+        if (!proved)
+            return Error{
+                proved.error().code == ErrorCode::cancelled ? ErrorCode::cancelled : ErrorCode::internal,
+                proved.error().sentence,
+                {}};
+    }
+    const std::vector<std::uint8_t> bytes = session.timed("encode", [&] { return bp_octree::encode(*tree); });
+    if (context.cancelled()) return Context::cancelled_error();
+    if (!options.output.empty()) {
+        session.stdout_taken = options.output == "-";
+        Result<io::WriteReport> written =
+            session.timed("write", [&] { return bp_octree::write_bpo(options.output, bytes, context); });
+        if (!written) return std::move(written).error();
+    }
+    const auto to_level = bp_octree::bytes_to_level(bytes);
+    session.result = json_of(*tree, *to_level, bytes.size());
+    if (options.certify) session.result["certified"] = true;
+    session.text = text_of(*tree, *to_level, bytes.size());
+    if (options.certify) session.text += "certified  every colour, winding number and plane\n";
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_build(Program& program) {
+    const auto options = std::make_shared<BuildOptions>();
+    CLI::App* verb = program.verb("build", "Trees", "Build the BP-octree of a solid: nested convex envelopes",
+                                  [options](Session& session) { return build(session, *options); });
+    verb->add_option("FILE", options->input, "A mesh; - is stdin")->required()->type_name("FILE");
+    verb->add_option("-o,--output", options->output, "The BP-octree to write: .bpo")->type_name("FILE");
+    verb->add_option("--depth", options->depth, "The deepest level, 0 to 18; 9 by default")
+        ->check(CLI::Range(0, bp_octree::max_depth))
+        ->type_name("N");
+    verb->add_option("--leaf-triangles", options->leaf_triangles,
+                     "Cells with at most this many triangles are not split; 50 by default")
+        ->check(CLI::Range(1, 1000000))
+        ->type_name("N");
+    verb->add_option("--quality", options->quality,
+                     "normal, or fast: fewer directions tried, looser envelopes")
+        ->check(CLI::IsMember({"normal", "fast"}))
+        ->type_name("QUALITY");
+    verb->add_option("--gain", options->gain,
+                     "Planes must cut more than this part of their cell; 0.001 by default")
+        ->check(check_positive)
+        ->type_name("PART");
+    verb->add_option(
+            "--planes", options->planes,
+            "greedy: by the volume they cut; k-medoids: by normals, as in the thesis, for comparison")
+        ->check(CLI::IsMember({"greedy", "k-medoids"}))
+        ->type_name("CHOICE");
+    verb->add_option("--part", options->part,
+                     "For k-medoids: planes of level 0 as a part of the triangles; 0.01 by default")
+        ->check(check_positive)
+        ->type_name("PART");
+    verb->add_flag("--certify", options->certify, "Prove the tree again from its triangles");
+    verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
+        ->type_name("FORMAT");
+}
+
+}  // namespace octavo::cli
