@@ -215,8 +215,8 @@ Contacts find_contacts(const Soup& soup, const FacetTree& tree, PointTable& poin
         for (std::size_t task = begin; task < end; ++task) {
             Facet first{no_index, {}, {}};
             tree.for_each_pair(tasks[task], [&](std::uint32_t a, std::uint32_t b) {
-                if (first.id != tree.facet(a)) first = load(soup, tree.facet(a));
-                meet(first, load(soup, tree.facet(b)), found[task]);
+                if (first.id != a) first = load(soup, a);
+                meet(first, load(soup, b), found[task]);
             });
         }
     });

@@ -71,7 +71,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     note_input(*soup, report);
 
     phases.begin("index", 0.15);
-    const FacetTree tree(*soup);
+    const FacetTree tree(*soup, context);
 
     phases.begin("meet", 0.25);
     PointTable points(*soup);

@@ -1,114 +1,144 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
-#include <octavo/boolean/soup.hpp>
+#include <octavo/boolean/box_tree.hpp>
+#include <octavo/boolean/facet_prism.hpp>
 
-// A pointer-free tree of boxes over the facets of a soup, in the order of an octree.
+// Finds the pairs of facets of a soup that may meet, and the facets on a ray.
 //
-// Facets are sorted along the Morton curve of their box centres; eight neighbours in that order form a node, eight
-// nodes form a node of the next level, and so on: an octree's order with full nodes, so that a node is eight
-// boxes side by side in memory and is compared with a box in one go. Finding all pairs of boxes that meet is one
-// descent of the tree against itself.
+// Facets of ordinary size are in one tree of boxes; all pairs of boxes that meet are found in one descent of the
+// tree against itself. *Long* facets, those whose box is much larger than the facets of an even mesh would be, are in
+// a tree of their own: among the others they would blow up the boxes of whole nodes, and with them the number
+// of pairs. Each long facet descends both trees by itself, past the boxes that its plane and edges miss. So a
+// fan of slivers costs what the slivers come near, not the product of all that their boxes overlap.
 //
-// A second test throws out most pairs that only have boxes in common: all corners of one on one side of the other's
-// plane, eight facets at a time, at about 4 ns a pair. It is what makes fans of thousands of slivers bearable, whose
-// boxes all meet. We tried to clip long facets to cells that they really cross; it lost, because slivers of one fan
-// are neighbours in every cell along their length, and each cell paid for them again.
-// Cost: 80 bytes and about 80 ns a facet to build.
+// What is left of pairs whose boxes meet goes through facet_filter.hpp.
+// Tried and lost: to cut long facets into the cells that they cross. Slivers of one fan are neighbours in every cell
+// along their length, and each cell pays for them again.
 
 namespace octavo::boolean {
 
 class FacetTree {
   public:
-    static constexpr int width = 8;
-
-    struct alignas(32) Node {
-        std::int32_t low[3][width];
-        std::int32_t high[3][width];
-    };
-
-    /// The facets of a node of level 0, side by side for comparing one facet with all eight.
-    struct alignas(32) Leaf {
-        std::int32_t point[3][3][width];  ///< corner, axis, lane
-        std::uint32_t corner[3][width];
-    };
-
-    /// A facet, ready to be compared with eight others at once.
-    ///
-    /// The normal is exact in doubles, and so are differences of coordinates; a product of 53 and 26 bits rounds
-    /// once and two sums round, so a corner's value on the plane is off by at most 4u 2^26 (|a| + |b| + |c|), and
-    /// `bound` is twice that.
-    struct PlaneFilter {
-        double normal[3];
-        double bound;
-        std::int32_t at[3];  ///< a corner
-        std::uint32_t corner[3];
-
-        PlaneFilter(const Leaf& leaf, int lane);
-        /// Bit k: facet k of the leaf is not known to have all corners that are not shared on one side.
-        unsigned undecided(const Leaf& leaf) const;
-    };
-
     FacetTree() = default;
-    explicit FacetTree(const Soup& soup);
+    explicit FacetTree(const Soup& soup, const Context& context = {});
 
-    /// Nodes of level 0 hold facets: lane k of node n is facet `facet(8 n + k)`, if that is less than `size()`.
-    std::size_t size() const { return order_.size(); }
-    std::uint32_t facet(std::size_t position) const { return order_[position]; }
-
-    /// A part of the self-intersection of the tree: nodes `first` <= `second` of one level, all pairs between
-    /// them.
+    /// A part of all pairs: either nodes `first` <= `second` of one level of the ordinary facets, or the long
+    /// facets at the positions [first, second).
     struct Task {
         std::uint32_t level, first, second;
     };
-    /// All pairs of boxes of the tree, as at least about `count` independent tasks where there are that many.
+    static constexpr std::uint32_t long_facets = no_index;  ///< as a task's level
+
+    /// All pairs, as at least about `count` independent tasks where there are that many.
     std::vector<Task> pair_tasks(std::size_t count) const;
 
-    /// Calls `visit(position, position)` for the pairs of facets of the task that may meet: their boxes do, and
-    /// the second has not all its corners on one side of the first's plane (corners they share aside).
+    /// Calls `visit(facet, facet)` for the pairs of the task that may have more in common than corners and edges
+    /// that they share.
     template <class Visit>
     void for_each_pair(const Task& task, const Visit& visit) const {
-        pairs(task.level, task.first, task.second, visit);
+        if (task.level != long_facets) {
+            CurrentPlanes planes;
+            pairs(task.level, task.first, task.second, planes, visit);
+            return;
+        }
+        for (std::uint32_t position = task.first; position < task.second; ++position) {
+            const LongFacet facet(long_, position);
+            meet_long(facet, ordinary_, 0, visit);
+            meet_long(facet, long_, position + 1, visit);
+        }
     }
 
     /// Calls `visit(facet)` for each facet whose box meets the ray from `point` along `axis`, in the direction of
     /// `sign`.
     template <class Visit>
     void for_each_on_ray(exact::Point point, int axis, int sign, const Visit& visit) const {
-        if (!levels_.empty()) ray(levels_.size() - 1, 0, point, axis, sign, visit);
+        for (const BoxTree* tree : {&ordinary_, &long_})
+            if (!tree->empty()) ray(*tree, tree->top(), 0, point, axis, sign, visit);
     }
 
   private:
-    /// Bit k: box k of `node` meets box `lane` of `other`.
-    static unsigned meeting(const Node& node, const Node& other, int lane);
+    static constexpr int width = BoxTree::width;
+
+    /// The planes of the block that was compared last: blocks come with several partners in a row.
+    struct CurrentPlanes {
+        std::uint32_t block = no_index;
+        FacetPlanes planes;
+    };
+
+    struct LongFacet {
+        LongFacet(const BoxTree& tree, std::uint32_t position)
+            : facet(tree.facet(position)),
+              lane(static_cast<int>(position % width)),
+              block(tree.block(position / width)),
+              box(tree.node(0, position / width)),
+              planes(block),
+              prism(block, lane) {}
+        std::uint32_t facet;
+        int lane;
+        const FacetBlock& block;
+        const BoxNode& box;
+        FacetPlanes planes;
+        FacetPrism prism;
+    };
 
     template <class Visit>
-    void pairs(std::uint32_t level, std::uint32_t first, std::uint32_t second, const Visit& visit) const {
-        const Node& node = levels_[level][first];
-        const Node& other = levels_[level][second];
+    void pairs(std::uint32_t level, std::uint32_t first, std::uint32_t second, CurrentPlanes& current,
+               const Visit& visit) const {
+        const BoxNode& node = ordinary_.node(level, first);
+        const BoxNode& other = ordinary_.node(level, second);
         for (int lane = 0; lane < width; ++lane) {
             unsigned hits = meeting(other, node, lane);
             if (first == second) hits &= level == 0 ? ~1u << lane : ~0u << lane;
-            if (level == 0 && hits) hits &= PlaneFilter(leaves_[first], lane).undecided(leaves_[second]);
-            for (; hits; hits &= hits - 1) {
-                const auto hit = static_cast<std::uint32_t>(__builtin_ctz(hits));
-                const std::uint32_t a = first * width + static_cast<std::uint32_t>(lane),
-                                    b = second * width + hit;
-                if (level == 0)
-                    visit(a, b);
-                else
-                    pairs(level - 1, a, b, visit);
+            if (!hits) continue;
+            const std::uint32_t a = first * width + static_cast<std::uint32_t>(lane);
+            if (level > 0) {
+                for (; hits; hits &= hits - 1)
+                    pairs(level - 1, a, second * width + static_cast<std::uint32_t>(std::countr_zero(hits)),
+                          current, visit);
+                continue;
             }
+            if (current.block != first) current = {first, FacetPlanes(ordinary_.block(first))};
+            hits = may_meet(ordinary_.block(first), current.planes, lane, ordinary_.block(second), hits);
+            for (; hits; hits &= hits - 1)
+                visit(ordinary_.facet(a),
+                      ordinary_.facet(second * width + static_cast<std::uint32_t>(std::countr_zero(hits))));
+        }
+    }
+
+    /// With the facets of `tree` from position `begin` on.
+    template <class Visit>
+    void meet_long(const LongFacet& facet, const BoxTree& tree, std::size_t begin, const Visit& visit) const {
+        if (!tree.empty()) meet_long(facet, tree, begin, tree.top(), 0, visit);
+    }
+    template <class Visit>
+    void meet_long(const LongFacet& facet, const BoxTree& tree, std::size_t begin, std::uint32_t level,
+                   std::uint32_t number, const Visit& visit) const {
+        const BoxNode& node = tree.node(level, number);
+        unsigned hits = meeting(node, facet.box, facet.lane);
+        if (level > 0) {
+            hits = facet.prism.meeting(node, hits);
+        } else {
+            if (begin > number * width) hits &= ~0u << (begin - number * width);
+            if (hits) hits = may_meet(facet.block, facet.planes, facet.lane, tree.block(number), hits);
+        }
+        for (; hits; hits &= hits - 1) {
+            const std::uint32_t child = number * width + static_cast<std::uint32_t>(std::countr_zero(hits));
+            if (level == 0)
+                visit(facet.facet, tree.facet(child));
+            else if ((std::size_t{child} + 1) << (3 * level) > begin)
+                meet_long(facet, tree, begin, level - 1, child, visit);
         }
     }
 
     template <class Visit>
-    void ray(std::size_t level, std::uint32_t number, exact::Point point, int axis, int sign,
-             const Visit& visit) const {
-        const Node& node = levels_[level][number];
+    void ray(const BoxTree& tree, std::uint32_t level, std::uint32_t number, exact::Point point, int axis,
+             int sign, const Visit& visit) const {
+        const BoxNode& node = tree.node(level, number);
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
         for (std::uint32_t lane = 0; lane < width; ++lane) {
             const bool meets =
@@ -117,15 +147,13 @@ class FacetTree {
                 (sign > 0 ? node.high[axis][lane] >= point[axis] : node.low[axis][lane] <= point[axis]);
             if (!meets) continue;
             if (level == 0)
-                visit(order_[number * width + lane]);
+                visit(tree.facet(number * width + lane));
             else
-                ray(level - 1, number * width + lane, point, axis, sign, visit);
+                ray(tree, level - 1, number * width + lane, point, axis, sign, visit);
         }
     }
 
-    std::vector<std::uint32_t> order_;
-    std::vector<Leaf> leaves_;
-    std::vector<std::vector<Node>> levels_;
+    BoxTree ordinary_, long_;
 };
 
 }  // namespace octavo::boolean

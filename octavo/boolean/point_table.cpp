@@ -2,40 +2,12 @@
 #include <cmath>
 
 #include <octavo/boolean/any_point.hpp>
+#include <octavo/boolean/lattice_cell.hpp>
 #include <octavo/boolean/point_table.hpp>
 #include <octavo/exact/compare.hpp>
 
 namespace octavo::boolean {
 namespace {
-
-struct Cell {
-    exact::Point low;
-    bool is_corner;  ///< all coordinates are integers: the point is `low`
-};
-
-/// The lattice cell that holds a point, by value: equal points have equal cells however they were constructed.
-template <class P>
-Cell cell_of(const P& point) {
-    // Approximations are off by less than 2^-24; farther than 2^-20 from an integer they cannot be on the wrong
-    // side of it. Nearer, the integer is compared exactly.
-    constexpr double margin = 0x1p-20;
-    std::int32_t low[3];
-    bool is_corner = true;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double coordinate = point.approximation(axis), below = std::floor(coordinate);
-        low[axis] = static_cast<std::int32_t>(below);
-        if (coordinate - below > margin && coordinate - below < 1 - margin) {
-            is_corner = false;
-            continue;
-        }
-        const auto nearest = static_cast<std::int32_t>(std::nearbyint(coordinate));
-        const exact::Point at{nearest, nearest, nearest};
-        const exact::Sign sign = exact::compare_coordinate(axis, point, at);
-        low[axis] = sign == exact::Sign::negative ? nearest - 1 : nearest;
-        is_corner = is_corner && sign == exact::Sign::zero;
-    }
-    return {{low[0], low[1], low[2]}, is_corner};
-}
 
 std::uint64_t hash(exact::Point cell) {
     const auto part = [](std::int32_t number, std::uint64_t factor) {
@@ -48,29 +20,35 @@ std::uint64_t hash(exact::Point cell) {
 
 }  // namespace
 
-PointId PointTable::add(const exact::EdgePoint& point) { return add_to(point, edge_points_, false); }
-PointId PointTable::add(const exact::TriplePoint& point) { return add_to(point, triple_points_, true); }
+PointId PointTable::add(const exact::EdgePoint& point) {
+    return add_to(point, edge_points_, Constructed::edge);
+}
+PointId PointTable::add(const exact::TriplePoint& point) {
+    return add_to(point, triple_points_, Constructed::triple);
+}
 
 template <class P>
-PointId PointTable::add_to(const P& point, std::vector<P>& kind, bool is_triple) {
-    const Cell cell = cell_of(point);
+PointId PointTable::add_to(const P& point, std::vector<P>& same_kind, Constructed::Kind kind) {
+    const LatticeCell cell = lattice_cell(point);
     const auto vertices = static_cast<PointId>(soup_.points.size());
     if (cell.is_corner) {
         const std::uint32_t vertex = soup_.index.find(cell.low, soup_.points);
         if (vertex != no_index) return vertex;
+        kind = Constructed::lattice;
     }
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = hash(cell.low) & mask;
     for (; slots_[slot] != no_index; slot = (slot + 1) & mask) {
-        if (constructed_[slots_[slot]].cell != cell.low) continue;
+        const Constructed& other = constructed_[slots_[slot]];
+        if (other.cell != cell.low || (other.kind == Constructed::lattice) != cell.is_corner) continue;
         const PointId id = vertices + slots_[slot];
-        if (with(id, [&](const auto& other) { return exact::same_point(point, other); })) return id;
+        if (cell.is_corner || with(id, [&](const auto& known) { return exact::same_point(point, known); }))
+            return id;
     }
     const auto number = static_cast<std::uint32_t>(constructed_.size());
     slots_[slot] = number;
-    constructed_.push_back(
-        {cell.low, static_cast<std::uint32_t>(kind.size()) & 0x7fffffffu, is_triple ? 1u : 0u});
-    kind.push_back(point);
+    constructed_.push_back({cell.low, static_cast<std::uint32_t>(same_kind.size()) & 0x3fffffffu, kind});
+    if (!cell.is_corner) same_kind.push_back(point);
     if (2 * constructed_.size() > slots_.size()) grow();
     return vertices + number;
 }
@@ -94,8 +72,8 @@ exact::Sign PointTable::compare_coordinate(int axis, PointId first, PointId seco
 }
 
 exact::Sign PointTable::orient2d(int axis, PointId p, PointId q, PointId r) const {
-    if (is_vertex(p) && is_vertex(q) && is_vertex(r))
-        return exact::orient2d(axis, vertex(p), vertex(q), vertex(r));
+    const exact::Point *lp = lattice_point(p), *lq = lattice_point(q), *lr = lattice_point(r);
+    if (lp && lq && lr) return exact::orient2d(axis, *lp, *lq, *lr);
     // The filter of exact/orient_in_plane.hpp with R = 2^26: e = 12u R < 2^-23.
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
     const Vec3 a = approximation(p), b = approximation(q), c = approximation(r);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <octavo/boolean/any_point.hpp>
+#include <octavo/boolean/lattice_cell.hpp>
 #include <octavo/boolean/subdivision.hpp>
 #include <octavo/exact/compare.hpp>
 #include <octavo/exact/intersect.hpp>
@@ -135,8 +136,8 @@ Subdivision::VertexId Subdivision::add_point(PointId id) {
          slot = (slot + 1) & (vertex_of_.size() - 1))
         if (vertices_[vertex_of_[slot]].id == id) return vertex_of_[slot];
     const Vec3 at = points_.approximation(id);
-    const bool lattice = points_.is_vertex(id);
-    const VertexId vertex = push({at[i_], at[j_], id, no_index, lattice ? points_.vertex(id) : exact::Point{},
+    const exact::Point* lattice = points_.lattice_point(id);
+    const VertexId vertex = push({at[i_], at[j_], id, no_index, lattice ? *lattice : exact::Point{},
                                   lattice ? Vertex::Kind::lattice : Vertex::Kind::table});
     const Location place = locate(vertex);
     if (place.edge < 0)
@@ -336,8 +337,10 @@ Subdivision::VertexId Subdivision::cross(Edge fixed, std::uint32_t line) {
     OCTAVO_CHECK(point.has_value(), "two segments that cross have parallel planes");
     const auto number = static_cast<std::uint32_t>(new_points_.size());
     new_points_.push_back(*point);
-    const VertexId vertex = push({point->approximation(i_), point->approximation(j_), new_point + number,
-                                  no_index, exact::Point{}, Vertex::Kind::crossing});
+    const LatticeCell cell = lattice_cell(*point);
+    const VertexId vertex =
+        push({point->approximation(i_), point->approximation(j_), new_point + number, no_index, cell.low,
+              cell.is_corner ? Vertex::Kind::lattice : Vertex::Kind::crossing});
     split_edge(fixed.triangle, fixed.k, vertex);
     return vertex;
 }

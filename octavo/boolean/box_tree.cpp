@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <octavo/base/parallel.hpp>
+#include <octavo/boolean/box_tree.hpp>
+#include <octavo/octree/morton.hpp>
+
+namespace octavo::boolean {
+namespace {
+
+constexpr std::size_t grain = 1 << 14;
+
+/// Twice the centre of the facet's box, 27 bits a coordinate.
+std::array<std::uint32_t, 3> doubled_centre(const Soup& soup, std::uint32_t facet) {
+    const mesh::Triangle& corners = soup.facets[facet];
+    const exact::Point a = soup.points[corners[0]], b = soup.points[corners[1]], c = soup.points[corners[2]];
+    std::array<std::uint32_t, 3> centre;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int32_t x = a[axis], y = b[axis], z = c[axis];
+        centre[axis] = static_cast<std::uint32_t>(std::min({x, y, z}) + std::max({x, y, z}));
+    }
+    return centre;
+}
+
+struct Keyed {
+    std::uint32_t key, facet;
+};
+
+// 10 of the 27 bits of an axis: a third of the memory traffic of sorting by full keys, and enough to tell the facets of
+// a million from one another where they are spread evenly.
+constexpr int key_bits = 10, drop_bits = exact::coordinate_bits + 1 - key_bits;
+
+/// Least significant digit first. Each chunk of the input counts and writes for itself, so that chunks may run at
+/// the same time and the order never depends on that.
+void sort_by_key(std::vector<Keyed>& keyed, const Context& context) {
+    constexpr int digit_bits = key_bits, digits = 1 << digit_bits;
+    const std::size_t chunk = std::max<std::size_t>(grain, (keyed.size() + 15) / 16),
+                      chunks = (keyed.size() + chunk - 1) / chunk;
+    std::vector<Keyed> other(keyed.size());
+    std::vector<std::array<std::uint32_t, digits>> places(chunks);
+    for (int shift = 0; shift < 3 * key_bits; shift += digit_bits) {
+        parallel_chunks(context, keyed.size(), chunk, [&](std::size_t begin, std::size_t end) {
+            std::array<std::uint32_t, digits>& count = places[begin / chunk];
+            count.fill(0);
+            for (std::size_t i = begin; i < end; ++i) ++count[keyed[i].key >> shift & (digits - 1)];
+        });
+        std::uint32_t sum = 0;
+        for (int digit = 0; digit < digits; ++digit)
+            for (std::array<std::uint32_t, digits>& place : places) {
+                const std::uint32_t count = place[digit];
+                place[digit] = sum;
+                sum += count;
+            }
+        parallel_chunks(context, keyed.size(), chunk, [&](std::size_t begin, std::size_t end) {
+            std::array<std::uint32_t, digits>& place = places[begin / chunk];
+            for (std::size_t i = begin; i < end; ++i)
+                other[place[keyed[i].key >> shift & (digits - 1)]++] = keyed[i];
+        });
+        keyed.swap(other);
+    }
+}
+
+/// Sorts runs of equal keys by the bits that the keys have dropped; runs are short but for clustered scenes.
+void sort_runs(const Soup& soup, std::vector<Keyed>& keyed) {
+    struct Fine {
+        std::uint64_t key;
+        std::uint32_t facet;
+    };
+    std::vector<Fine> run;
+    for (std::size_t i = 0, end; i < keyed.size(); i = end) {
+        for (end = i + 1; end < keyed.size() && keyed[end].key == keyed[i].key;) ++end;
+        if (end - i <= BoxTree::width) continue;
+        run.clear();
+        for (std::size_t k = i; k < end; ++k) {
+            const auto [x, y, z] = doubled_centre(soup, keyed[k].facet);
+            constexpr std::uint32_t mask = (1u << drop_bits) - 1;
+            run.push_back({octree::interleave(x & mask, y & mask, z & mask), keyed[k].facet});
+        }
+        std::stable_sort(run.begin(), run.end(), [](const Fine& a, const Fine& b) { return a.key < b.key; });
+        for (std::size_t k = i; k < end; ++k) keyed[k].facet = run[k - i].facet;
+    }
+}
+
+void set_empty(BoxNode& node) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (int lane = 0; lane < BoxNode::width; ++lane) {
+            node.low[axis][lane] = std::numeric_limits<std::int32_t>::max();
+            node.high[axis][lane] = std::numeric_limits<std::int32_t>::min();
+        }
+}
+
+}  // namespace
+
+BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, const Context& context)
+    : facets_(std::move(facets)) {
+    if (facets_.empty()) return;
+    std::vector<Keyed> keyed(facets_.size());
+    parallel_chunks(context, keyed.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto [x, y, z] = doubled_centre(soup, facets_[i]);
+            keyed[i] = {static_cast<std::uint32_t>(
+                            octree::interleave(x >> drop_bits, y >> drop_bits, z >> drop_bits)),
+                        facets_[i]};
+        }
+    });
+    sort_by_key(keyed, context);
+    sort_runs(soup, keyed);
+    for (std::size_t i = 0; i < keyed.size(); ++i) facets_[i] = keyed[i].facet;
+    keyed = {};
+    fill_blocks(soup, context);
+    build_levels(context);
+}
+
+void BoxTree::fill_blocks(const Soup& soup, const Context& context) {
+    const std::size_t count = (facets_.size() + width - 1) / width;
+    blocks_.resize(count);
+    levels_.emplace_back(count);
+    parallel_chunks(context, count, grain / width, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t number = begin; number < end; ++number) {
+            FacetBlock& block = blocks_[number];
+            for (std::size_t lane = 0; lane < width; ++lane) {
+                // What is left of the last block repeats its first facet; its boxes are empty.
+                const std::size_t position = std::min(number * width + lane, facets_.size() - 1);
+                const mesh::Triangle& corners = soup.facets[facets_[position]];
+                for (int corner = 0; corner < 3; ++corner) {
+                    const exact::Point point = soup.points[corners[corner]];
+                    block.corner[corner][lane] = corners[corner];
+                    block.point[corner][0][lane] = point.x;
+                    block.point[corner][1][lane] = point.y;
+                    block.point[corner][2][lane] = point.z;
+                }
+            }
+            BoxNode& node = levels_[0][number];
+            for (int axis = 0; axis < 3; ++axis)
+                for (int lane = 0; lane < width; ++lane) {
+                    const std::int32_t a = block.point[0][axis][lane], b = block.point[1][axis][lane],
+                                       c = block.point[2][axis][lane];
+                    node.low[axis][lane] = std::min(a, std::min(b, c));
+                    node.high[axis][lane] = std::max(a, std::max(b, c));
+                }
+        }
+    });
+    for (std::size_t lane = facets_.size() - (count - 1) * width; lane < width; ++lane)
+        for (int axis = 0; axis < 3; ++axis) {
+            levels_[0].back().low[axis][lane] = std::numeric_limits<std::int32_t>::max();
+            levels_[0].back().high[axis][lane] = std::numeric_limits<std::int32_t>::min();
+        }
+}
+
+void BoxTree::build_levels(const Context& context) {
+    while (levels_.back().size() > 1) {
+        const std::vector<BoxNode>& children = levels_.back();
+        std::vector<BoxNode> level((children.size() + width - 1) / width);
+        set_empty(level.back());
+        parallel_chunks(context, level.size(), grain / width, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t child = begin * width; child < std::min(end * width, children.size()); ++child)
+                for (int axis = 0; axis < 3; ++axis) {
+                    const BoxNode& from = children[child];
+                    BoxNode& to = level[child / width];
+                    to.low[axis][child % width] = *std::min_element(from.low[axis], from.low[axis] + width);
+                    to.high[axis][child % width] =
+                        *std::max_element(from.high[axis], from.high[axis] + width);
+                }
+        });
+        levels_.push_back(std::move(level));
+    }
+}
+
+unsigned meeting(const BoxNode& node, const BoxNode& other, int lane) {
+#if defined(__AVX2__)
+    __m256i apart = _mm256_setzero_si256();
+    for (int axis = 0; axis < 3; ++axis) {
+        const __m256i low = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.low[axis]));
+        const __m256i high = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.high[axis]));
+        const __m256i other_low = _mm256_set1_epi32(other.low[axis][lane]);
+        const __m256i other_high = _mm256_set1_epi32(other.high[axis][lane]);
+        apart = _mm256_or_si256(
+            apart, _mm256_or_si256(_mm256_cmpgt_epi32(low, other_high), _mm256_cmpgt_epi32(other_low, high)));
+    }
+    return ~static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(apart))) & 0xffu;
+#else
+    unsigned meets = 0;
+    for (int k = 0; k < BoxNode::width; ++k) {
+        bool both = true;
+        for (int axis = 0; axis < 3; ++axis)
+            both = both && node.low[axis][k] <= other.high[axis][lane] &&
+                   other.low[axis][lane] <= node.high[axis][k];
+        meets |= static_cast<unsigned>(both) << k;
+    }
+    return meets;
+#endif
+}
+
+}  // namespace octavo::boolean

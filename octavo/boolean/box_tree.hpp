@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <octavo/base/context.hpp>
+#include <octavo/boolean/facet_filter.hpp>
+#include <octavo/boolean/soup.hpp>
+
+// A pointer-free tree of boxes over some facets of a soup, in the order of an octree.
+//
+// Facets are sorted along the Morton curve of their box centres; eight neighbours in that order form a node, eight
+// nodes form a node of the next level, and so on: an octree's order with full nodes, so that a node is eight
+// boxes side by side in memory and is compared with a box in one go.
+//
+// Cost: 72 bytes and about 60 ns a facet to build.
+
+namespace octavo::boolean {
+
+/// Eight boxes side by side.
+struct alignas(32) BoxNode {
+    static constexpr int width = FacetBlock::width;
+    std::int32_t low[3][width], high[3][width];
+};
+
+/// Bit k: box k of `node` meets box `lane` of `other`.
+unsigned meeting(const BoxNode& node, const BoxNode& other, int lane);
+
+class BoxTree {
+  public:
+    static constexpr int width = BoxNode::width;
+
+    BoxTree() = default;
+    /// Of the facets listed.
+    BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, const Context& context);
+
+    /// Node n of level 0 holds the facets at positions 8 n to 8 n + 7; box k of node n of a higher level holds
+    /// node 8 n + k of the level below. The highest level has one node.
+    bool empty() const { return facets_.empty(); }
+    std::size_t size() const { return facets_.size(); }
+    std::uint32_t facet(std::size_t position) const { return facets_[position]; }
+    std::uint32_t top() const { return static_cast<std::uint32_t>(levels_.size() - 1); }
+    const BoxNode& node(std::uint32_t level, std::uint32_t number) const { return levels_[level][number]; }
+    const FacetBlock& block(std::uint32_t number) const { return blocks_[number]; }
+
+  private:
+    void fill_blocks(const Soup& soup, const Context& context);
+    void build_levels(const Context& context);
+
+    std::vector<std::uint32_t> facets_;
+    std::vector<FacetBlock> blocks_;
+    std::vector<std::vector<BoxNode>> levels_;
+};
+
+}  // namespace octavo::boolean
