@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <map>
+#include <numeric>
 
 #include <octavo/base/parallel.hpp>
 #include <octavo/boolean/arrangement.hpp>
+#include <octavo/boolean/cut_planes.hpp>
 #include <octavo/boolean/subdivision.hpp>
 #include <octavo/exact/orient.hpp>
 #include <octavo/mesh/disjoint_sets.hpp>
@@ -77,30 +80,32 @@ inline constexpr std::uint32_t is_cut_line =
     no_index;  ///< the tag of segments that are no border of a sheet's facet
 
 /// All points that are known go in before any segment, so that a crossing of segments is never one of them.
-void insert_points(const Sheet& sheet, Subdivision& subdivision) {
+void insert_points(const Sheet& sheet, const CutPlanes& planes, Subdivision& subdivision,
+                   std::vector<Subdivision::PointOnLine>& points) {
     for (const Cut& cut : sheet.cuts) {
-        subdivision.add_point(cut.from);
-        if (cut.to != cut.from) subdivision.add_point(cut.to);
+        points.push_back({cut.from, planes.of_facet[cut.other]});
+        points.push_back({cut.to, planes.of_facet[cut.other]});
     }
+    subdivision.add_points(points);
 }
 
-void insert_segments(const Soup& soup, const Sheet& sheet, Subdivision& subdivision) {
-    for (const Cut& cut : sheet.cuts) {
-        if (cut.to == cut.from) continue;
-        const std::uint32_t line = subdivision.add_line(plane_of(soup, cut.other));
-        subdivision.add_segment(subdivision.add_point(cut.from), subdivision.add_point(cut.to), line,
-                                is_cut_line);
-    }
+void insert_segments(const Sheet& sheet, const CutPlanes& planes, Subdivision& subdivision) {
+    for (const Cut& cut : sheet.cuts)
+        if (cut.to != cut.from)
+            subdivision.add_segment(subdivision.vertex_of(cut.from), subdivision.vertex_of(cut.to),
+                                    planes.of_facet[cut.other], is_cut_line);
 }
 
-Pieces subdivide_facet(const Soup& soup, const Sheet& sheet, Subdivision& subdivision) {
+Pieces subdivide_facet(const Soup& soup, const Sheet& sheet, const CutPlanes& planes,
+                       Subdivision& subdivision) {
     const std::uint32_t facet = sheet.facets[0];
     const mesh::Triangle& corner = soup.facets[facet];
     const PointId ids[3] = {corner[0], corner[1], corner[2]};
     const Point corners[3] = {soup.points[ids[0]], soup.points[ids[1]], soup.points[ids[2]]};
     subdivision.begin(plane_of(soup, facet), corners, ids);
-    insert_points(sheet, subdivision);
-    insert_segments(soup, sheet, subdivision);
+    std::vector<Subdivision::PointOnLine> points;
+    insert_points(sheet, planes, subdivision, points);
+    insert_segments(sheet, planes, subdivision);
 
     Pieces pieces;
     pieces.covers.push_back({facet, {}, false});
@@ -209,23 +214,55 @@ class CoverSearch {
     const Subdivision& subdivision_;
 };
 
-Pieces subdivide_sheet(const Soup& soup, const Sheet& sheet, Subdivision& subdivision) {
+/// The borders of a sheet's facets as lines, each once however many facets have a side on it.
+class BorderLines {
+  public:
+    BorderLines(const Soup& soup, int axis, Subdivision& subdivision)
+        : soup_(soup), axis_(axis), subdivision_(subdivision) {}
+
+    Subdivision::LineId of(std::uint32_t from, std::uint32_t to) {
+        const Point p = soup_.points[from], q = soup_.points[to];
+        const int i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
+        std::int64_t dx = q[i] - p[i], dy = q[j] - p[j];
+        const std::int64_t divisor = std::gcd(dx, dy) * (dx < 0 || (dx == 0 && dy < 0) ? -1 : 1);
+        dx /= divisor, dy /= divisor;
+        const auto [place, is_new] = ids_.try_emplace({dx, dy, dx * p[j] - dy * p[i]});
+        if (is_new) place->second = subdivision_.add_line(Plane::along_axis(axis_, p, q));
+        return place->second;
+    }
+
+  private:
+    const Soup& soup_;
+    int axis_;
+    Subdivision& subdivision_;
+    std::map<std::array<std::int64_t, 3>, Subdivision::LineId> ids_;
+};
+
+Pieces subdivide_sheet(const Soup& soup, const Sheet& sheet, const CutPlanes& planes,
+                       Subdivision& subdivision) {
     const Plane plane = plane_of(soup, sheet.facets[0]);
     subdivision.begin_round(plane, soup, sheet.facets);
-    for (const std::uint32_t facet : sheet.facets)
-        for (const std::uint32_t corner : soup.facets[facet]) subdivision.add_point(corner);
-    insert_points(sheet, subdivision);
-    const int axis = plane.dominant_axis();
+    BorderLines borders(soup, plane.dominant_axis(), subdivision);
+    struct Border {
+        std::uint32_t from, to, facet;
+        Subdivision::LineId line;
+    };
+    std::vector<Border> sides;
+    std::vector<Subdivision::PointOnLine> points;
     for (const std::uint32_t facet : sheet.facets) {
         const mesh::Triangle& corner = soup.facets[facet];
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t from = corner[k], to = corner[(k + 1) % 3];
-            const std::uint32_t line =
-                subdivision.add_line(Plane::along_axis(axis, soup.points[from], soup.points[to]));
-            subdivision.add_segment(subdivision.add_point(from), subdivision.add_point(to), line, facet);
+            sides.push_back({from, to, facet, borders.of(from, to)});
+            points.push_back({from, sides.back().line});
+            points.push_back({to, sides.back().line});
         }
     }
-    insert_segments(soup, sheet, subdivision);
+    insert_points(sheet, planes, subdivision, points);
+    for (const Border& side : sides)
+        subdivision.add_segment(subdivision.vertex_of(side.from), subdivision.vertex_of(side.to), side.line,
+                                side.facet);
+    insert_segments(sheet, planes, subdivision);
 
     Pieces pieces;
     std::vector<std::uint32_t> cover;
@@ -271,12 +308,13 @@ Complex arrange(const Soup& soup, const Contacts& contacts, PointTable& points, 
     complex.is_cut.assign(soup.facets.size(), 0);
     const std::vector<Sheet> sheets = find_sheets(soup, contacts);
     complex.sheets = sheets.size();
+    const CutPlanes planes = find_cut_planes(soup, contacts, context);
     std::vector<Pieces> pieces(sheets.size());
     parallel_chunks(context, sheets.size(), 64, [&](std::size_t begin, std::size_t end) {
-        Subdivision subdivision(points);
+        Subdivision subdivision(points, planes.planes);
         for (std::size_t i = begin; i < end; ++i)
-            pieces[i] = sheets[i].facets.size() == 1 ? subdivide_facet(soup, sheets[i], subdivision)
-                                                     : subdivide_sheet(soup, sheets[i], subdivision);
+            pieces[i] = sheets[i].facets.size() == 1 ? subdivide_facet(soup, sheets[i], planes, subdivision)
+                                                     : subdivide_sheet(soup, sheets[i], planes, subdivision);
     });
     for (std::size_t i = 0; i < sheets.size(); ++i) {
         for (const std::uint32_t facet : sheets[i].facets) complex.is_cut[facet] = 1;

@@ -186,15 +186,17 @@ class CoplanarMerge {
         facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
         const Plane plane = surface_.plane(soup_, region.triangles[0]);
         subdivision.begin_round(plane, soup_, facets);
-        for (const auto& [from, to] : region.border) subdivision.add_point(from);
+        std::vector<Subdivision::PointOnLine> points;
+        for (const auto& [from, to] : region.border) points.push_back({from, Subdivision::no_line});
+        subdivision.add_points(points);
         // A border that the region has on both sides does not lead out of it.
         constexpr std::uint32_t border = 0, slit = 1;
         std::sort(region.border.begin(), region.border.end());
         for (const auto& [from, to] : region.border) {
             const bool both =
                 std::binary_search(region.border.begin(), region.border.end(), std::pair{to, from});
-            subdivision.add_segment(subdivision.add_point(from), subdivision.add_point(to), 0,
-                                    both ? slit : border);
+            subdivision.add_segment(subdivision.vertex_of(from), subdivision.vertex_of(to),
+                                    Subdivision::no_line, both ? slit : border);
         }
         subdivision.refine();
 

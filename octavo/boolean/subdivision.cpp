@@ -7,6 +7,7 @@
 #include <octavo/boolean/subdivision.hpp>
 #include <octavo/exact/compare.hpp>
 #include <octavo/exact/intersect.hpp>
+#include <octavo/octree/morton.hpp>
 
 namespace octavo::boolean {
 
@@ -97,7 +98,36 @@ Sign Subdivision::turn(VertexId a, VertexId b, VertexId c) const {
     const double sum = (std::fabs(ux) + std::fabs(uy)) + (std::fabs(vx) + std::fabs(vy));
     constexpr double e = 0x1p-21;
     if (std::fabs(determinant) > 2 * e * (sum + e)) return determinant > 0 ? Sign::positive : Sign::negative;
+    if (share_line(p, q, r)) return Sign::zero;
     return exact_turn(p, q, r);
+}
+
+bool Subdivision::share_line(const Vertex& a, const Vertex& b, const Vertex& c) const {
+    const auto has = [](const Vertex& vertex, LineId line) {
+        return std::find(vertex.lines.begin(), vertex.lines.end(), line) != vertex.lines.end();
+    };
+    for (const LineId line : a.lines) {
+        if (line == no_line) return false;
+        if (has(b, line) && has(c, line)) return true;
+    }
+    return false;
+}
+
+/// A fifth line is not noted: to know it saves time only.
+void Subdivision::note(VertexId vertex, LineId line) {
+    if (line == no_line) return;
+    for (LineId& known : vertices_[vertex].lines) {
+        if (known == line) return;
+        if (known == no_line) {
+            known = line;
+            return;
+        }
+    }
+}
+
+bool Subdivision::lies_on(VertexId vertex, LineId line) const {
+    const auto& lines = vertices_[vertex].lines;
+    return line != no_line && std::find(lines.begin(), lines.end(), line) != lines.end();
 }
 
 Sign Subdivision::exact_turn(const Vertex& a, const Vertex& b, const Vertex& c) const {
@@ -131,20 +161,89 @@ bool Subdivision::is_ahead(VertexId from, VertexId to, VertexId vertex) const {
     return false;
 }
 
-Subdivision::VertexId Subdivision::add_point(PointId id) {
+Subdivision::VertexId Subdivision::vertex_of(PointId id) const {
     for (std::size_t slot = id * 0x9E3779B1u & (vertex_of_.size() - 1); vertex_of_[slot] != no_index;
          slot = (slot + 1) & (vertex_of_.size() - 1))
         if (vertices_[vertex_of_[slot]].id == id) return vertex_of_[slot];
+    return no_index;
+}
+
+Subdivision::VertexId Subdivision::push(PointId id) {
     const Vec3 at = points_.approximation(id);
     const exact::Point* lattice = points_.lattice_point(id);
-    const VertexId vertex = push({at[i_], at[j_], id, no_index, lattice ? *lattice : exact::Point{},
-                                  lattice ? Vertex::Kind::lattice : Vertex::Kind::table});
+    return push({at[i_], at[j_], id, no_index, lattice ? *lattice : exact::Point{},
+                 lattice ? Vertex::Kind::lattice : Vertex::Kind::table});
+}
+
+Subdivision::VertexId Subdivision::add_point(PointId id) {
+    const VertexId known = vertex_of(id);
+    if (known != no_index) return known;
+    const VertexId vertex = push(id);
+    insert(vertex);
+    return vertex;
+}
+
+void Subdivision::insert(VertexId vertex) {
     const Location place = locate(vertex);
     if (place.edge < 0)
         split_triangle(place.triangle, vertex);
     else
         split_edge(place.triangle, place.edge, vertex);
-    return vertex;
+}
+
+void Subdivision::add_points(std::vector<PointOnLine>& points) {
+    // Fewer points are found and connected so fast that neither order nor flips pay.
+    constexpr std::size_t many = 24;
+    const std::size_t first = vertices_.size();
+    for (const PointOnLine& point : points) {
+        VertexId vertex = vertex_of(point.id);
+        if (vertex == no_index) vertex = push(point.id);
+        note(vertex, point.line);
+    }
+    const std::size_t count = vertices_.size() - first;
+    if (count < many) {
+        for (std::size_t vertex = first; vertex < vertices_.size(); ++vertex)
+            insert(static_cast<VertexId>(vertex));
+        return;
+    }
+    // Along the Morton curve each point is near the one before; flips keep triangles round and walks short.
+    std::vector<std::pair<std::uint64_t, VertexId>> order;
+    order.reserve(count);
+    for (std::size_t vertex = first; vertex < vertices_.size(); ++vertex) {
+        const auto x = static_cast<std::uint32_t>(vertices_[vertex].x + 1) >> 6,
+                   y = static_cast<std::uint32_t>(vertices_[vertex].y + 1) >> 6;
+        order.push_back({octree::interleave(x, y, 0), static_cast<VertexId>(vertex)});
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [key, vertex] : order) {
+        insert(vertex);
+        legalise(vertex);
+    }
+}
+
+/// Flips edges opposite to a new vertex while that makes triangles rounder. Each flip gives the vertex one more edge,
+/// so it ends whatever rounding says.
+void Subdivision::legalise(VertexId vertex) {
+    pending_.clear();
+    any_around(vertex, [&](TriangleId t, int) {
+        pending_.push_back(t);
+        return false;
+    });
+    while (!pending_.empty()) {
+        // Flips keep the vertex in all triangles that are pending.
+        const TriangleId t = pending_.back();
+        const int k = (index_in(t, vertex) + 1) % 3;
+        const TriangleId across = triangles_[t].neighbour[k];
+        pending_.pop_back();
+        if (across == no_index || triangles_[t].owner[k]) continue;
+        const VertexId a = triangles_[t].v[k], b = triangles_[t].v[(k + 1) % 3];
+        const VertexId apex = triangles_[across].v[(back_index(across, t) + 2) % 3];
+        if (!prefers_flip(a, b, vertex, apex)) continue;
+        if (turn(vertex, a, apex) != Sign::positive || turn(apex, b, vertex) != Sign::positive) continue;
+        flip(t, k);
+        pending_.push_back(t);
+        pending_.push_back(across);
+    }
 }
 
 Subdivision::Location Subdivision::locate(VertexId vertex) {
@@ -277,16 +376,28 @@ void Subdivision::own(Edge edge, std::uint32_t line, std::uint32_t tag) {
     if (across != no_index) triangles_[across].owner[back_index(across, edge.triangle)] = head;
 }
 
-void Subdivision::add_segment(VertexId from, VertexId to, std::uint32_t line, std::uint32_t tag) {
+void Subdivision::add_segment(VertexId from, VertexId to, LineId line, std::uint32_t tag) {
     while (from != to) from = advance(from, to, line, tag);
 }
 
 /// Fixes the first piece of the segment and returns its end: the next vertex on the segment.
-Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, std::uint32_t line,
-                                           std::uint32_t tag) {
+Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, LineId line, std::uint32_t tag) {
     // The edge from `from` that runs along the segment, or the edge opposite to `from` that it leaves through.
     Edge along{no_index, 0}, through{no_index, 0};
     VertexId next = no_index;
+    any_around(from, [&](TriangleId t, int k) {  // what is known costs nothing: first of all
+        for (int step = 1; step < 3; ++step) {
+            const VertexId neighbour = triangles_[t].v[(k + step) % 3];
+            if (neighbour != to && !(lies_on(neighbour, line) && is_ahead(from, to, neighbour))) continue;
+            along = {t, step == 1 ? k : (k + 2) % 3}, next = neighbour;
+            return true;
+        }
+        return false;
+    });
+    if (along.triangle != no_index) {
+        own(along, line, tag);
+        return next;
+    }
     any_around(from, [&](TriangleId t, int k) {
         const VertexId right = triangles_[t].v[(k + 1) % 3], left = triangles_[t].v[(k + 2) % 3];
         const Sign at_right = turn(from, to, right), at_left = turn(from, to, left);
@@ -302,6 +413,7 @@ Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, std::uint
         return through.triangle != no_index;
     });
     if (along.triangle != no_index) {
+        note(next, line);
         own(along, line, tag);
         return next;
     }
@@ -320,6 +432,7 @@ Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, std::uint
         const Sign side = turn(from, to, apex);
         if (apex == to || side == Sign::zero) {
             next = apex;
+            note(next, line);
             break;
         }
         edge = {t, side == Sign::positive ? (m + 1) % 3 : (m + 2) % 3};
@@ -330,10 +443,10 @@ Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, std::uint
 }
 
 /// The vertex where a fixed edge meets line `line`.
-Subdivision::VertexId Subdivision::cross(Edge fixed, std::uint32_t line) {
+Subdivision::VertexId Subdivision::cross(Edge fixed, LineId line) {
     const Owner& owner = owners_[triangles_[fixed.triangle].owner[fixed.k] - 1];
     const std::optional<exact::TriplePoint> point =
-        exact::intersect(plane_, lines_[owner.line], lines_[line]);
+        exact::intersect(plane_, plane_of(owner.line), plane_of(line));
     OCTAVO_CHECK(point.has_value(), "two segments that cross have parallel planes");
     const auto number = static_cast<std::uint32_t>(new_points_.size());
     new_points_.push_back(*point);
@@ -341,6 +454,8 @@ Subdivision::VertexId Subdivision::cross(Edge fixed, std::uint32_t line) {
     const VertexId vertex =
         push({point->approximation(i_), point->approximation(j_), new_point + number, no_index, cell.low,
               cell.is_corner ? Vertex::Kind::lattice : Vertex::Kind::crossing});
+    note(vertex, owner.line);
+    note(vertex, line);
     split_edge(fixed.triangle, fixed.k, vertex);
     return vertex;
 }
@@ -384,19 +499,20 @@ void Subdivision::force_edge(VertexId from, VertexId to) {
     }
 }
 
+/// In-circle in rounded coordinates, with a margin: a choice of shape, never of validity. The margin keeps rounding
+/// from flipping an edge back and forth.
+bool Subdivision::prefers_flip(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    const Vertex &p = vertices_[a], &q = vertices_[b], &r = vertices_[c], &s = vertices_[d];
+    // The edge (a, b) is bad when the angles at c and d sum to more than half a turn.
+    const double cx = p.x - r.x, cy = p.y - r.y, ex = q.x - r.x, ey = q.y - r.y;
+    const double dx = p.x - s.x, dy = p.y - s.y, fx = q.x - s.x, fy = q.y - s.y;
+    const double sin_c = cx * ey - cy * ex, cos_c = cx * ex + cy * ey;
+    const double sin_d = fx * dy - fy * dx, cos_d = dx * fx + dy * fy;
+    const double scale = (std::fabs(sin_c) + std::fabs(cos_c)) * (std::fabs(sin_d) + std::fabs(cos_d));
+    return sin_c * cos_d + cos_c * sin_d < -1e-9 * scale;
+}
+
 void Subdivision::refine() {
-    // In-circle in rounded coordinates, with a margin: a choice of shape, never of validity. The margin keeps
-    // rounding from flipping an edge back and forth.
-    const auto prefers_flip = [this](VertexId a, VertexId b, VertexId c, VertexId d) {
-        const Vertex &p = vertices_[a], &q = vertices_[b], &r = vertices_[c], &s = vertices_[d];
-        // The edge (a, b) is bad when the angles at c and d sum to more than half a turn.
-        const double cx = p.x - r.x, cy = p.y - r.y, ex = q.x - r.x, ey = q.y - r.y;
-        const double dx = p.x - s.x, dy = p.y - s.y, fx = q.x - s.x, fy = q.y - s.y;
-        const double sin_c = cx * ey - cy * ex, cos_c = cx * ex + cy * ey;
-        const double sin_d = fx * dy - fy * dx, cos_d = dx * fx + dy * fy;
-        const double scale = (std::fabs(sin_c) + std::fabs(cos_c)) * (std::fabs(sin_d) + std::fabs(cos_d));
-        return sin_c * cos_d + cos_c * sin_d < -1e-9 * scale;
-    };
     in_the_way_.clear();
     for (TriangleId t = 0; t < triangles_.size(); ++t)
         for (int k = 0; k < 3; ++k)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,7 +17,8 @@
 // way, and through edges in its way. A free edge in its way is flipped away; a fixed edge is crossed in the point
 // that the planes behind both segments have in common with this plane, which becomes a vertex. So crossings,
 // overlaps and T-contacts of segments need no search and no cases of their own. Everything is decided by the exact
-// turn of three points, seen along the plane's dominant axis.
+// turn of three points, seen along the plane's dominant axis. Points of one line would all need exact arithmetic for
+// that; but mostly they are known to lie on it because of how they came about, so vertices note their lines.
 //
 // Invariants: every triangle turns counter-clockwise seen from the front of the plane; every vertex is a different
 // point; an edge of the triangulation that lies on an inserted segment is fixed and knows the owners of all
@@ -35,7 +37,7 @@ class Subdivision {
 
     /// A chain of what lies on a fixed edge.
     struct Owner {
-        std::uint32_t line = 0;  ///< plane that holds the segment, as numbered by `add_line`
+        std::uint32_t line = 0;  ///< that the segment lies on
         std::uint32_t tag = 0;   ///< the caller's name for the segment
         std::uint32_t next = 0;  ///< 1 + index of the next owner; 0 ends the chain
     };
@@ -46,7 +48,9 @@ class Subdivision {
         std::uint32_t owner[3];   ///< 1 + index of the first owner of that edge; 0: the edge is free
     };
 
-    explicit Subdivision(const PointTable& points) : points_(points) {}
+    /// `cut_planes` are the planes that lines of this number lie in; they must stay.
+    explicit Subdivision(const PointTable& points, std::span<const exact::Plane> cut_planes = {})
+        : points_(points), cut_planes_(cut_planes) {}
 
     /// Starts with the triangle of three lattice points of `plane` (or any that, seen along the plane's dominant
     /// axis, surround all that will be inserted). They become vertices 0, 1 and 2 and must turn
@@ -58,17 +62,32 @@ class Subdivision {
     /// table.
     void begin_round(const exact::Plane& plane, const Soup& soup, std::span<const std::uint32_t> facets);
 
-    /// The plane that cuts segments out of this one.
-    std::uint32_t add_line(const exact::Plane& plane) {
+    /// Where segments lie: the line that this plane has in common with another one. Numbers below that of the cut
+    /// planes are theirs; more are made by `add_line`. Equal lines should have equal numbers, for speed.
+    using LineId = std::uint32_t;
+    static constexpr LineId no_line = ~LineId{0};
+
+    LineId add_line(const exact::Plane& plane) {
         lines_.push_back(plane);
-        return static_cast<std::uint32_t>(lines_.size() - 1);
+        return static_cast<LineId>(cut_planes_.size() + lines_.size() - 1);
     }
 
     /// The vertex at a point of the plane inside or on the first triangle; the same vertex for the same id.
     VertexId add_point(PointId id);
 
-    /// Fixes the segment between two vertices, which lies on line `line`.
-    void add_segment(VertexId from, VertexId to, std::uint32_t line, std::uint32_t tag);
+    /// The vertex of a point that has been added.
+    VertexId vertex_of(PointId id) const;
+
+    /// A point and a line on which it is known to lie, or `no_line`.
+    struct PointOnLine {
+        PointId id;
+        LineId line;
+    };
+    /// Adds points before all segments, in an order and with flips that keep large sets fast. Reorders them.
+    void add_points(std::vector<PointOnLine>& points);
+
+    /// Fixes the segment between two vertices, which lies on line `line`; with `no_line` it must not cross others.
+    void add_segment(VertexId from, VertexId to, LineId line, std::uint32_t tag);
 
     /// Flips free edges towards a Delaunay triangulation as far as rounded coordinates tell; never across a fixed
     /// edge and never so that a triangle turns over.
@@ -92,8 +111,9 @@ class Subdivision {
         double x, y;  ///< seen along the dominant axis, from the front
         std::uint32_t id;
         TriangleId triangle;   ///< one that has it as a corner
-        exact::Point lattice;  ///< where id says so
+        exact::Point lattice;  ///< where kind says so
         enum class Kind : std::uint8_t { lattice, table, crossing } kind;
+        std::array<LineId, 4> lines{no_line, no_line, no_line, no_line};  ///< that it is known to lie on
     };
     struct Location {
         TriangleId triangle;
@@ -105,6 +125,16 @@ class Subdivision {
     };
 
     VertexId push(const Vertex& vertex);
+    VertexId push(PointId id);
+    const exact::Plane& plane_of(LineId line) const {
+        return line < cut_planes_.size() ? cut_planes_[line] : lines_[line - cut_planes_.size()];
+    }
+    void note(VertexId vertex, LineId line);
+    bool lies_on(VertexId vertex, LineId line) const;
+    bool share_line(const Vertex& a, const Vertex& b, const Vertex& c) const;
+    void insert(VertexId vertex);
+    void legalise(VertexId vertex);
+    bool prefers_flip(VertexId a, VertexId b, VertexId c, VertexId d) const;
     template <class Visit>
     decltype(auto) with(const Vertex& vertex, const Visit& visit) const;
     exact::Sign exact_turn(const Vertex& a, const Vertex& b, const Vertex& c) const;
@@ -117,8 +147,8 @@ class Subdivision {
     template <class Visit>
     bool any_around(VertexId vertex, const Visit& visit) const;
     void own(Edge edge, std::uint32_t line, std::uint32_t tag);
-    VertexId advance(VertexId from, VertexId to, std::uint32_t line, std::uint32_t tag);
-    VertexId cross(Edge fixed, std::uint32_t line);
+    VertexId advance(VertexId from, VertexId to, LineId line, std::uint32_t tag);
+    VertexId cross(Edge fixed, LineId line);
     void force_edge(VertexId from, VertexId to);
     int index_in(TriangleId triangle, VertexId vertex) const {
         const Triangle& t = triangles_[triangle];
@@ -134,6 +164,7 @@ class Subdivision {
     }
 
     const PointTable& points_;
+    std::span<const exact::Plane> cut_planes_;
     exact::Plane plane_;
     int axis_ = 2, i_ = 0, j_ = 1;
     bool reversed_ = false;
@@ -144,6 +175,7 @@ class Subdivision {
     std::vector<exact::TriplePoint> new_points_;
     std::vector<std::uint32_t> vertex_of_;  ///< hash of point id to vertex
     std::vector<std::pair<VertexId, VertexId>> in_the_way_;
+    std::vector<TriangleId> pending_;  ///< triangles whose edge opposite to a new vertex may have to go
     TriangleId hint_ = 0;
     std::uint32_t walk_seed_ = 1;
 };
