@@ -38,11 +38,11 @@ constexpr int key_bits = 10, drop_bits = exact::coordinate_bits + 1 - key_bits;
 
 /// Least significant digit first. Each chunk of the input counts and writes for itself, so that chunks may run at
 /// the same time and the order never depends on that.
-void sort_by_key(std::vector<Keyed>& keyed, const Context& context) {
+void sort_by_key(UninitialisedVector<Keyed>& keyed, const Context& context) {
     constexpr int digit_bits = key_bits, digits = 1 << digit_bits;
     const std::size_t chunk = std::max<std::size_t>(grain, (keyed.size() + 15) / 16),
                       chunks = (keyed.size() + chunk - 1) / chunk;
-    std::vector<Keyed> other(keyed.size());
+    UninitialisedVector<Keyed> other(keyed.size());
     std::vector<std::array<std::uint32_t, digits>> places(chunks);
     for (int shift = 0; shift < 3 * key_bits; shift += digit_bits) {
         parallel_chunks(context, keyed.size(), chunk, [&](std::size_t begin, std::size_t end) {
@@ -67,7 +67,7 @@ void sort_by_key(std::vector<Keyed>& keyed, const Context& context) {
 }
 
 /// Sorts runs of equal keys by the bits that the keys have dropped; runs are short but for clustered scenes.
-void sort_runs(const Soup& soup, std::vector<Keyed>& keyed) {
+void sort_runs(const Soup& soup, UninitialisedVector<Keyed>& keyed) {
     struct Fine {
         std::uint64_t key;
         std::uint32_t facet;
@@ -100,7 +100,7 @@ void set_empty(BoxNode& node) {
 BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, const Context& context)
     : facets_(std::move(facets)) {
     if (facets_.empty()) return;
-    std::vector<Keyed> keyed(facets_.size());
+    UninitialisedVector<Keyed> keyed(facets_.size());
     parallel_chunks(context, keyed.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto [x, y, z] = doubled_centre(soup, facets_[i]);
@@ -155,8 +155,8 @@ void BoxTree::fill_blocks(const Soup& soup, const Context& context) {
 
 void BoxTree::build_levels(const Context& context) {
     while (levels_.back().size() > 1) {
-        const std::vector<BoxNode>& children = levels_.back();
-        std::vector<BoxNode> level((children.size() + width - 1) / width);
+        const UninitialisedVector<BoxNode>& children = levels_.back();
+        UninitialisedVector<BoxNode> level((children.size() + width - 1) / width);
         set_empty(level.back());
         parallel_chunks(context, level.size(), grain / width, [&](std::size_t begin, std::size_t end) {
             for (std::size_t child = begin * width; child < std::min(end * width, children.size()); ++child)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <octavo/base/context.hpp>
+#include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/facet_filter.hpp>
 #include <octavo/boolean/soup.hpp>
 
@@ -49,8 +50,8 @@ class BoxTree {
     void build_levels(const Context& context);
 
     std::vector<std::uint32_t> facets_;
-    std::vector<FacetBlock> blocks_;
-    std::vector<std::vector<BoxNode>> levels_;
+    UninitialisedVector<FacetBlock> blocks_;
+    std::vector<UninitialisedVector<BoxNode>> levels_;
 };
 
 }  // namespace octavo::boolean

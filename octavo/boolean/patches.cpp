@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <string>
+#include <tuple>
+#include <utility>
 
+#include <octavo/base/parallel.hpp>
 #include <octavo/boolean/about_edge.hpp>
+#include <octavo/boolean/concurrent_sets.hpp>
+#include <octavo/boolean/lanes.hpp>
 #include <octavo/boolean/patches.hpp>
 #include <octavo/exact/plane.hpp>
-#include <octavo/mesh/disjoint_sets.hpp>
+
+#pragma GCC diagnostic ignored "-Wpsabi"  // vector types stay inside of this file
 
 namespace octavo::boolean {
 namespace {
@@ -15,23 +22,97 @@ struct CornerTable {
     std::vector<std::uint32_t> begin, corners;
 };
 
-CornerTable corners_by_point(const Complex& complex, std::size_t points) {
+/// Threads share the work by ranges of points: each looks at all triangles, which are read fast and in order, and
+/// writes what belongs to its range.
+CornerTable corners_by_point(const Complex& complex, std::size_t points, const Context& context) {
     CornerTable table;
     table.begin.assign(points + 1, 0);
-    for (std::uint32_t triangle = 0; triangle < complex.size(); ++triangle)
-        if (complex.exists(triangle))
-            for (const PointId point : complex.corners(triangle)) ++table.begin[point + 1];
-    for (std::size_t point = 0; point < points; ++point) table.begin[point + 1] += table.begin[point];
-    table.corners.resize(table.begin[points]);
-    for (std::uint32_t triangle = 0; triangle < complex.size(); ++triangle) {
-        if (!complex.exists(triangle)) continue;
-        const mesh::Triangle& corners = complex.corners(triangle);
-        for (std::uint32_t k = 0; k < 3; ++k) table.corners[table.begin[corners[k]]++] = 4 * triangle + k;
-    }
+    const std::size_t range = context.threads == 1 ? points : points / 4 + 1;
+    const auto for_each_corner = [&](std::size_t first, std::size_t last, const auto& visit) {
+        for (std::uint32_t triangle = 0; triangle < complex.size(); ++triangle) {
+            if (!complex.exists(triangle)) continue;
+            const mesh::Triangle& corners = complex.corners(triangle);
+            for (std::uint32_t k = 0; k < 3; ++k)
+                if (corners[k] >= first && corners[k] < last) visit(corners[k], 4 * triangle + k);
+        }
+    };
+    parallel_chunks(context, points, range, [&](std::size_t first, std::size_t last) {
+        for_each_corner(first, last, [&](PointId point, std::uint32_t) { ++table.begin[point]; });
+    });
+    std::uint32_t sum = 0;
+    for (std::uint32_t& begin : table.begin) begin = std::exchange(sum, sum + begin);
+    table.corners.resize(sum);
+    parallel_chunks(context, points, range, [&](std::size_t first, std::size_t last) {
+        for_each_corner(first, last, [&](PointId point, std::uint32_t corner) {
+            table.corners[table.begin[point]++] = corner;
+        });
+    });
     for (std::size_t point = points; point > 0; --point) table.begin[point] = table.begin[point - 1];
     table.begin[0] = 0;
     return table;
 }
+
+/// Recognises points whose triangles form one closed fan of equal ones.
+class FanTest {
+  public:
+    explicit FanTest(const Complex& complex) : complex_(complex) {}
+
+    bool is_plain(std::span<const std::uint32_t> corners) {
+        if (corners.size() < 3) return false;
+        const TransitionId transition = complex_.transition(corners[0] / 4);
+        for (const std::uint32_t corner : corners)
+            if (complex_.transition(corner / 4) != transition) return false;
+        return corners.size() <= small ? is_small_cycle(corners) : is_large_cycle(corners);
+    }
+
+  private:
+    static constexpr std::size_t small = 32;
+
+    /// The side of the triangle that lies opposite to the corner.
+    std::pair<PointId, PointId> opposite(std::uint32_t corner) const {
+        const mesh::Triangle& t = complex_.corners(corner / 4);
+        const std::uint32_t k = corner % 4;
+        return {t[(k + 1) % 3], t[(k + 2) % 3]};
+    }
+
+    /// Follows the sides; each next one is found among all by comparing eight at once.
+    bool is_small_cycle(std::span<const std::uint32_t> corners) const {
+        std::uint32_t from[small], to[small];
+        const std::size_t count = corners.size(), padded = (count + 7) / 8 * 8;
+        for (std::size_t i = 0; i < count; ++i) std::tie(from[i], to[i]) = opposite(corners[i]);
+        for (std::size_t i = count; i < padded; ++i) from[i] = no_index;
+        std::size_t at = 0;
+        for (std::size_t step = 1; step <= count; ++step) {
+            std::uint32_t starts = 0;
+            for (std::size_t block = 0; block < padded; block += 8)
+                starts |= bits(load_block(from + block) == static_cast<std::int32_t>(to[at])) << block;
+            if (!std::has_single_bit(starts)) return false;
+            at = static_cast<std::size_t>(std::countr_zero(starts));
+            if (at == 0) return step == count;
+        }
+        return false;
+    }
+
+    /// Sorted by start, a fan is a permutation that each search follows in logarithmic time.
+    bool is_large_cycle(std::span<const std::uint32_t> corners) {
+        fan_.clear();
+        for (const std::uint32_t corner : corners) fan_.push_back(opposite(corner));
+        std::sort(fan_.begin(), fan_.end());
+        std::size_t at = 0;
+        for (std::size_t step = 1; step <= fan_.size(); ++step) {
+            const auto next =
+                std::lower_bound(fan_.begin(), fan_.end(), std::pair<PointId, PointId>{fan_[at].second, 0});
+            if (next == fan_.end() || next->first != fan_[at].second) return false;
+            if (next + 1 != fan_.end() && (next + 1)->first == next->first) return false;
+            at = static_cast<std::size_t>(next - fan_.begin());
+            if (at == 0) return step == fan_.size();
+        }
+        return false;
+    }
+
+    const Complex& complex_;
+    std::vector<std::pair<PointId, PointId>> fan_;
+};
 
 /// A triangle at a vertex, as its opposite edge; or one of its sides at the vertex.
 struct Spoke {
@@ -46,13 +127,18 @@ class PatchSearch {
         : complex_(complex), points_(points), sets_(complex.size()) {}
 
     Result<Patches> run(const Context& context) {
-        const CornerTable table = corners_by_point(complex_, points_.size());
+        const CornerTable table = corners_by_point(complex_, points_.size(), context);
         patches_.is_plain.assign(points_.size(), 0);
-        for (PointId point = 0; point < points_.size(); ++point) {
-            const std::uint32_t begin = table.begin[point], end = table.begin[point + 1];
-            if (begin == end) continue;
-            patches_.is_plain[point] = join_fan({table.corners.data() + begin, end - begin});
-        }
+        parallel_chunks(context, points_.size(), 1 << 13, [&](std::size_t first, std::size_t last) {
+            FanTest test(complex_);
+            for (std::size_t point = first; point < last; ++point) {
+                const std::span<const std::uint32_t> corners{table.corners.data() + table.begin[point],
+                                                             table.begin[point + 1] - table.begin[point]};
+                if (!test.is_plain(corners)) continue;
+                patches_.is_plain[point] = 1;
+                for (const std::uint32_t corner : corners.subspan(1)) sets_.unite(corners[0] / 4, corner / 4);
+            }
+        });
         if (context.cancelled()) return Context::cancelled_error();
         for (PointId point = 0; point < points_.size(); ++point) {
             const std::uint32_t begin = table.begin[point], end = table.begin[point + 1];
@@ -66,55 +152,6 @@ class PatchSearch {
     }
 
   private:
-    /// Whether the corners form one closed fan of equal triangles; joins them if so.
-    bool join_fan(std::span<const std::uint32_t> corners) {
-        const std::size_t count = corners.size();
-        if (count < 3) return false;
-        fan_.resize(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const mesh::Triangle& t = complex_.corners(corners[i] / 4);
-            const std::uint32_t k = corners[i] % 4;
-            fan_[i] = {t[(k + 1) % 3], t[(k + 2) % 3]};
-        }
-        const TransitionId transition = complex_.transition(corners[0] / 4);
-        for (const std::uint32_t corner : corners)
-            if (complex_.transition(corner / 4) != transition) return false;
-        if (!is_single_cycle()) return false;
-        for (const std::uint32_t corner : corners) sets_.unite(corners[0] / 4, corner / 4);
-        return true;
-    }
-
-    bool is_single_cycle() {
-        const std::size_t count = fan_.size();
-        if (count > 32) {
-            // Sorted by start, a fan is a permutation that each search follows in logarithmic time.
-            std::sort(fan_.begin(), fan_.end());
-            std::size_t at = 0;
-            for (std::size_t step = 1; step <= count; ++step) {
-                const auto next = std::lower_bound(fan_.begin(), fan_.end(),
-                                                   std::pair<PointId, PointId>{fan_[at].second, 0});
-                if (next == fan_.end() || next->first != fan_[at].second) return false;
-                if (next + 1 != fan_.end() && (next + 1)->first == next->first) return false;
-                at = static_cast<std::size_t>(next - fan_.begin());
-                if (at == 0) return step == count;
-            }
-            return false;
-        }
-        std::size_t at = 0;
-        for (std::size_t step = 1; step <= count; ++step) {
-            std::size_t next = count;
-            for (std::size_t i = 0; i < count; ++i) {
-                if (fan_[i].first != fan_[at].second) continue;
-                if (next != count) return false;
-                next = i;
-            }
-            if (next == count) return false;
-            at = next;
-            if (at == 0) return step == count;
-        }
-        return false;
-    }
-
     /// Joins across or records the edges from `point` to higher points that are not plain either; fans have
     /// joined all others.
     void visit_edges(PointId point, std::span<const std::uint32_t> corners) {
@@ -208,10 +245,9 @@ class PatchSearch {
 
     const Complex& complex_;
     const PointTable& points_;
-    mesh::DisjointSets sets_;
+    ConcurrentSets sets_;
     Patches patches_;
     TransitionSum sum_;
-    std::vector<std::pair<PointId, PointId>> fan_;
     std::vector<Spoke> spokes_;
     std::vector<AboutEdge> turned_;
     std::vector<std::uint32_t> open_;

@@ -4,22 +4,10 @@
 #include <octavo/boolean/any_point.hpp>
 #include <octavo/boolean/lattice_cell.hpp>
 #include <octavo/boolean/point_table.hpp>
+#include <octavo/boolean/weld.hpp>
 #include <octavo/exact/compare.hpp>
 
 namespace octavo::boolean {
-namespace {
-
-std::uint64_t hash(exact::Point cell) {
-    const auto part = [](std::int32_t number, std::uint64_t factor) {
-        return static_cast<std::uint64_t>(static_cast<std::uint32_t>(number)) * factor;
-    };
-    const std::uint64_t mixed = part(cell.x, 0x9E3779B97F4A7C15ull) ^ part(cell.y, 0xC2B2AE3D27D4EB4Full) ^
-                                part(cell.z, 0x165667B19E3779F9ull);
-    return (mixed * 0x9E3779B97F4A7C15ull) >> 24;
-}
-
-}  // namespace
-
 PointId PointTable::add(const exact::EdgePoint& point) {
     return add_to(point, edge_points_, Constructed::edge);
 }
@@ -32,7 +20,7 @@ PointId PointTable::add_to(const P& point, std::vector<P>& same_kind, Constructe
     const LatticeCell cell = lattice_cell(point);
     const auto vertices = static_cast<PointId>(soup_.points.size());
     if (cell.is_corner) {
-        const std::uint32_t vertex = soup_.index.find(cell.low, soup_.points);
+        const std::uint32_t vertex = vertices_.find(cell.low, soup_.points);
         if (vertex != no_index) return vertex;
         kind = Constructed::lattice;
     }

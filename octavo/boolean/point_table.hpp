@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include <octavo/boolean/point_index.hpp>
 #include <octavo/boolean/soup.hpp>
 #include <octavo/exact/homogeneous_point.hpp>
 
@@ -87,6 +88,7 @@ class PointTable {
     std::vector<exact::TriplePoint> triple_points_;
     std::vector<Constructed> constructed_;
     std::vector<std::uint32_t> slots_;
+    PointIndex vertices_;
 };
 
 }  // namespace octavo::boolean

@@ -3,54 +3,12 @@
 #include <cmath>
 #include <string>
 
+#include <octavo/base/parallel.hpp>
 #include <octavo/boolean/soup.hpp>
+#include <octavo/boolean/weld.hpp>
 #include <octavo/exact/orient.hpp>
 
 namespace octavo::boolean {
-
-PointIndex::PointIndex(std::size_t expected) {
-    std::size_t capacity = 16;
-    while (capacity < 2 * expected) capacity *= 2;
-    slots_.assign(capacity, no_index);
-    mask_ = capacity - 1;
-}
-
-std::uint64_t PointIndex::hash(exact::Point point) {
-    // Multiplications spread the low bits upwards; the high half is what survives in the slot number.
-    const std::uint64_t xy = static_cast<std::uint64_t>(static_cast<std::uint32_t>(point.x)) |
-                             static_cast<std::uint64_t>(static_cast<std::uint32_t>(point.y)) << 32;
-    const std::uint64_t mixed =
-        (xy * 0x9E3779B97F4A7C15ull) ^
-        (static_cast<std::uint64_t>(static_cast<std::uint32_t>(point.z)) * 0xC2B2AE3D27D4EB4Full);
-    return (mixed * 0x9E3779B97F4A7C15ull) >> 24;
-}
-
-std::uint32_t PointIndex::add(exact::Point point, std::vector<exact::Point>& points) {
-    std::size_t slot = hash(point) & mask_;
-    for (; slots_[slot] != no_index; slot = (slot + 1) & mask_)
-        if (points[slots_[slot]] == point) return slots_[slot];
-    const std::uint32_t id = static_cast<std::uint32_t>(points.size());
-    slots_[slot] = id;
-    points.push_back(point);
-    if (2 * ++used_ > slots_.size()) grow(points);
-    return id;
-}
-
-std::uint32_t PointIndex::find(exact::Point point, std::span<const exact::Point> points) const {
-    for (std::size_t slot = hash(point) & mask_; slots_[slot] != no_index; slot = (slot + 1) & mask_)
-        if (points[slots_[slot]] == point) return slots_[slot];
-    return no_index;
-}
-
-void PointIndex::grow(std::span<const exact::Point> points) {
-    slots_.assign(2 * slots_.size(), no_index);
-    mask_ = slots_.size() - 1;
-    for (std::uint32_t id = 0; id < points.size(); ++id) {
-        std::size_t slot = hash(points[id]) & mask_;
-        while (slots_[slot] != no_index) slot = (slot + 1) & mask_;
-        slots_[slot] = id;
-    }
-}
 
 mesh::Source Soup::source(std::uint32_t facet) const {
     const auto after = std::upper_bound(first_triangle.begin(), first_triangle.end(), origin[facet]);
@@ -75,42 +33,112 @@ Result<exact::Lattice> joint_lattice(std::span<const mesh::Mesh* const> operands
     return exact::Lattice::fit(all);
 }
 
-/// Snaps and welds the vertices of one operand; the result names the point of each vertex.
-std::vector<std::uint32_t> add_vertices(const mesh::Mesh& operand, Soup& soup) {
-    std::vector<std::uint32_t> point_of(operand.vertices.size());
-    for (std::size_t vertex = 0; vertex < point_of.size(); ++vertex) {
-        const exact::Point point = soup.lattice.snap(operand.vertices[vertex]);
-        point_of[vertex] = soup.index.add(point, soup.points);
-        const Vec3 moved = soup.lattice.to_world(point) - operand.vertices[vertex];
-        if (moved == Vec3{}) continue;
-        ++soup.moved_vertices;
-        soup.largest_displacement = std::max(soup.largest_displacement, length(moved));
+/// Runs of elements that are counted through all operands.
+struct Ranges {
+    std::vector<std::size_t> begin;  ///< per operand, and one past the last
+
+    /// Calls `visit(operand, from, to, offset)` for the parts of [first, last) that belong to one operand; `offset` is
+    /// what its elements are counted from.
+    template <class Visit>
+    void for_each(std::size_t first, std::size_t last, const Visit& visit) const {
+        auto operand =
+            static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), first) - begin.begin()) - 1;
+        for (; first < last; ++operand) {
+            const std::size_t to = std::min(last, begin[operand + 1]);
+            if (first < to) visit(static_cast<std::uint32_t>(operand), first, to, begin[operand]);
+            first = to;
+        }
     }
-    return point_of;
+};
+
+constexpr std::size_t chunk_size = 1 << 15;
+
+/// The vertices of all operands on the lattice.
+UninitialisedVector<exact::Point> snap_vertices(std::span<const mesh::Mesh* const> operands,
+                                                const Ranges& vertices, Soup& soup, const Context& context) {
+    struct Moved {
+        std::size_t count = 0;
+        double farthest = 0;
+    };
+    UninitialisedVector<exact::Point> positions(vertices.begin.back());
+    std::vector<Moved> moved(positions.size() / chunk_size + 1);
+    parallel_chunks(context, positions.size(), chunk_size, [&](std::size_t first, std::size_t last) {
+        Moved& here = moved[first / chunk_size];
+        vertices.for_each(first, last,
+                          [&](std::uint32_t operand, std::size_t from, std::size_t to, std::size_t offset) {
+                              for (std::size_t i = from; i < to; ++i) {
+                                  const Vec3& vertex = operands[operand]->vertices[i - offset];
+                                  positions[i] = soup.lattice.snap(vertex);
+                                  const Vec3 way = soup.lattice.to_world(positions[i]) - vertex;
+                                  here.count += way != Vec3{};
+                                  here.farthest = std::max(here.farthest, dot(way, way));
+                              }
+                          });
+    });
+    for (const Moved& part : moved) {
+        soup.moved_vertices += part.count;
+        soup.largest_displacement = std::max(soup.largest_displacement, std::sqrt(part.farthest));
+    }
+    return positions;
 }
 
-Status add_facets(const mesh::Mesh& mesh, std::uint32_t operand, std::span<const std::uint32_t> point_of,
-                  Soup& soup) {
-    for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
-        const mesh::Triangle& triangle = mesh.triangles[face];
-        for (const mesh::VertexIndex corner : triangle)
-            if (corner >= point_of.size()) {
-                Error error{
-                    ErrorCode::bad_input,
-                    "operand " + std::to_string(operand) + " has a facet with a corner that does not exist",
-                    {}};
-                error.place.faces = {static_cast<std::uint32_t>(face)};
-                return error;
-            }
-        const mesh::Triangle facet{point_of[triangle[0]], point_of[triangle[1]], point_of[triangle[2]]};
-        if (exact::collinear(soup.points[facet[0]], soup.points[facet[1]], soup.points[facet[2]])) {
-            ++soup.flat_facets;
-            continue;
-        }
-        soup.facets.push_back(facet);
-        soup.origin.push_back(soup.first_triangle[operand] + static_cast<std::uint32_t>(face));
-        soup.transition.push_back(operand);
+Error missing_corner(std::uint32_t operand, std::size_t face) {
+    Error error{ErrorCode::bad_input,
+                "operand " + std::to_string(operand) + " has a facet with a corner that does not exist",
+                {}};
+    error.place.faces = {static_cast<std::uint32_t>(face)};
+    return error;
+}
+
+/// Drops the facets that are marked.
+void drop_facets(const std::vector<char>& dropped, Soup& soup) {
+    std::size_t kept = 0;
+    for (std::size_t facet = 0; facet < dropped.size(); ++facet) {
+        if (dropped[facet]) continue;
+        soup.facets[kept] = soup.facets[facet];
+        soup.transition[kept] = soup.transition[facet];
+        soup.origin[kept++] = soup.origin[facet];
     }
+    soup.facets.resize(kept), soup.transition.resize(kept), soup.origin.resize(kept);
+}
+
+/// All facets that have an area.
+Status add_facets(std::span<const mesh::Mesh* const> operands, const Ranges& triangles,
+                  const Ranges& vertices, std::span<const std::uint32_t> point_of, Soup& soup,
+                  const Context& context) {
+    const std::size_t count = triangles.begin.back();
+    soup.facets.resize(count), soup.transition.resize(count), soup.origin.resize(count);
+    std::vector<char> flat(count, 0);
+    std::vector<std::size_t> bad(count / chunk_size + 1, count), flats(count / chunk_size + 1, 0);
+    parallel_chunks(context, count, chunk_size, [&](std::size_t first, std::size_t last) {
+        triangles.for_each(
+            first, last, [&](std::uint32_t operand, std::size_t from, std::size_t to, std::size_t offset) {
+                const mesh::Mesh& mesh = *operands[operand];
+                const std::uint32_t* const points = point_of.data() + vertices.begin[operand];
+                for (std::size_t i = from; i < to; ++i) {
+                    const mesh::Triangle& triangle = mesh.triangles[i - offset];
+                    if (std::max({triangle[0], triangle[1], triangle[2]}) >= mesh.vertices.size()) {
+                        bad[first / chunk_size] = std::min(bad[first / chunk_size], i);
+                        return;
+                    }
+                    const mesh::Triangle facet{points[triangle[0]], points[triangle[1]], points[triangle[2]]};
+                    soup.facets[i] = facet;
+                    soup.transition[i] = operand;
+                    soup.origin[i] = static_cast<std::uint32_t>(i);
+                    flat[i] =
+                        exact::collinear(soup.points[facet[0]], soup.points[facet[1]], soup.points[facet[2]]);
+                    flats[first / chunk_size] += flat[i];
+                }
+            });
+    });
+    const std::size_t first_bad = *std::min_element(bad.begin(), bad.end());
+    if (first_bad < count) {
+        const auto after = std::upper_bound(triangles.begin.begin(), triangles.begin.end(), first_bad);
+        const auto operand = static_cast<std::uint32_t>(after - triangles.begin.begin() - 1);
+        return missing_corner(operand, first_bad - triangles.begin[operand]);
+    }
+    for (const std::size_t part : flats) soup.flat_facets += part;
+    if (soup.flat_facets > 0) drop_facets(flat, soup);
     return Done{};
 }
 
@@ -184,15 +212,7 @@ void merge_coincident(Soup& soup) {
                 soup.transition[keys[i].facet] = soup.transitions.intern(total);
         }
     }
-    if (dropped.empty()) return;
-    std::size_t kept = 0;
-    for (std::size_t facet = 0; facet < count; ++facet) {
-        if (dropped[facet]) continue;
-        soup.facets[kept] = soup.facets[facet];
-        soup.transition[kept] = soup.transition[facet];
-        soup.origin[kept++] = soup.origin[facet];
-    }
-    soup.facets.resize(kept), soup.transition.resize(kept), soup.origin.resize(kept);
+    if (!dropped.empty()) drop_facets(dropped, soup);
 }
 
 }  // namespace
@@ -203,27 +223,24 @@ Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, const Contex
     if (!lattice) return lattice.error();
     soup.lattice = *lattice;
 
-    std::size_t triangles = 0, vertices = 0;
+    Ranges triangles{{0}}, vertices{{0}};
     for (const mesh::Mesh* operand : operands) {
-        soup.first_triangle.push_back(static_cast<std::uint32_t>(triangles));
-        triangles += operand->triangles.size();
-        vertices += operand->vertices.size();
+        soup.first_triangle.push_back(static_cast<std::uint32_t>(triangles.begin.back()));
+        triangles.begin.push_back(triangles.begin.back() + operand->triangles.size());
+        vertices.begin.push_back(vertices.begin.back() + operand->vertices.size());
     }
     // Corners are numbered three to a facet, with ids of 32 bits.
-    if (triangles > (std::size_t{1} << 30) / 3 || vertices > (std::size_t{1} << 30))
+    if (triangles.begin.back() > (std::size_t{1} << 30) / 3 || vertices.begin.back() > (std::size_t{1} << 30))
         return Error{
             ErrorCode::limit, "the operands have more than 357 million facets or 1 billion vertices", {}};
-    soup.first_triangle.push_back(static_cast<std::uint32_t>(triangles));
+    soup.first_triangle.push_back(static_cast<std::uint32_t>(triangles.begin.back()));
     soup.transitions = TransitionTable(static_cast<std::uint32_t>(operands.size()));
-    soup.index = PointIndex(vertices);
-    soup.points.reserve(vertices);
-    soup.facets.reserve(triangles), soup.transition.reserve(triangles), soup.origin.reserve(triangles);
-    for (std::uint32_t operand = 0; operand < operands.size(); ++operand) {
-        if (context.cancelled()) return Context::cancelled_error();
-        const std::vector<std::uint32_t> point_of = add_vertices(*operands[operand], soup);
-        const Status added = add_facets(*operands[operand], operand, point_of, soup);
-        if (!added) return added.error();
-    }
+    Welded welded = weld(snap_vertices(operands, vertices, soup, context), context);
+    if (context.cancelled()) return Context::cancelled_error();
+    soup.points = std::move(welded.points);
+    const Status added = add_facets(operands, triangles, vertices, welded.point_of, soup, context);
+    if (!added) return added.error();
+    if (context.cancelled()) return Context::cancelled_error();
     merge_coincident(soup);
     return soup;
 }

@@ -18,33 +18,15 @@
 // the sum of their winding changes; where the sum is nothing they vanish. Identical operands, the case that makes
 // pair tests explode, thus cost no more than one operand.
 //
-// Cost: linear; one hash look-up a vertex and one scattered write a facet.
+// Cost: linear, about 60 ns a facet; in parallel but for the merging of facets.
 
 namespace octavo::boolean {
 
 inline constexpr std::uint32_t no_index = ~std::uint32_t{0};
 
-/// Finds lattice points by value.
-class PointIndex {
-  public:
-    PointIndex() = default;
-    explicit PointIndex(std::size_t expected);
-    /// The id of `point`, which is its position in `points`; appended there when it is new.
-    std::uint32_t add(exact::Point point, std::vector<exact::Point>& points);
-    /// no_index when it is not there.
-    std::uint32_t find(exact::Point point, std::span<const exact::Point> points) const;
-
-  private:
-    static std::uint64_t hash(exact::Point point);
-    void grow(std::span<const exact::Point> points);
-    std::vector<std::uint32_t> slots_;
-    std::size_t mask_ = 0, used_ = 0;
-};
-
 struct Soup {
     exact::Lattice lattice;
     std::vector<exact::Point> points;
-    PointIndex index;
     std::vector<mesh::Triangle> facets;
     std::vector<TransitionId> transition;  ///< per facet: winding behind minus winding in front
     std::vector<std::uint32_t> origin;     ///< per facet: the input triangle, counted through all operands
