@@ -15,10 +15,13 @@
 
 namespace octavo::classic {
 
+/// The corners of a triangle on the lattice.
+using FacetCorners = std::array<std::array<std::int32_t, 3>, 3>;
+
 struct alignas(64) Facet {
-    std::array<std::int32_t, 3> low, high;              ///< bounds, both inclusive
-    std::array<std::array<std::int32_t, 3>, 3> corner;  ///< counter-clockwise seen from outside
-    std::uint32_t source = 0;                           ///< index of the triangle in the mesh
+    std::array<std::int32_t, 3> low, high;  ///< bounds, both inclusive
+    FacetCorners corner;                    ///< counter-clockwise seen from outside
+    std::uint32_t source = 0;               ///< index of the triangle in the mesh
 };
 static_assert(sizeof(Facet) == 64);
 
@@ -31,12 +34,14 @@ struct Normal {
 };
 static_assert(2 * exact::coordinate_bits + 1 + 1 <= 63, "a normal's component fits a signed word");
 
-inline Normal normal_of(const Facet& facet) {
-    const auto& [a, b, c] = facet.corner;
+inline Normal normal_of(const FacetCorners& corner) {
+    const auto& [a, b, c] = corner;
     const std::int64_t ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
     const std::int64_t vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
     return {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
 }
+
+inline Normal normal_of(const Facet& facet) { return normal_of(facet.corner); }
 
 /// The facets of a mesh, in its order, without those that have no area.
 /// Errors: bad_input when a triangle names a vertex that is not there, or a point lies outside the universe.

@@ -22,17 +22,19 @@ struct FacetLanes {
     std::array<std::array<Lanes, 3>, 3> position;
 };
 
-/// Reads a corner as four words, of which the last belongs to what follows in Facet, and transposes.
-inline FacetLanes gather(const std::array<const Facet*, 4>& facets, const std::array<std::int32_t, 3>& low) {
+/// Reads a corner as four words, of which the last belongs to what follows the corners and must be readable, and
+/// transposes.
+inline FacetLanes gather(const std::array<const FacetCorners*, 4>& facets,
+                         const std::array<std::int32_t, 3>& low) {
     using Words = std::int32_t __attribute__((vector_size(16)));
     const Words base{low[0], low[1], low[2], 0};
     FacetLanes lanes;
     for (std::size_t corner = 0; corner < 3; ++corner) {
         std::array<Lanes, 4> row;
         for (std::size_t lane = 0; lane < 4; ++lane) {
-            static_assert(offsetof(Facet, corner) + sizeof(Facet::corner) + 4 <= sizeof(Facet));
             Words words;
-            std::memcpy(&words, facets[lane]->corner[corner].data(), sizeof words);
+            const auto* bytes = reinterpret_cast<const std::byte*>(facets[lane]);
+            std::memcpy(&words, bytes + corner * sizeof(FacetCorners::value_type), sizeof words);
             row[lane] = __builtin_convertvector(words - base, Lanes);
         }
         const Lanes xy01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);  // x0 x1 y0 y1
@@ -44,6 +46,11 @@ inline FacetLanes gather(const std::array<const Facet*, 4>& facets, const std::a
         lanes.position[corner][2] = __builtin_shufflevector(z01, z23, 0, 1, 4, 5);
     }
     return lanes;
+}
+
+inline FacetLanes gather(const std::array<const Facet*, 4>& facets, const std::array<std::int32_t, 3>& low) {
+    static_assert(offsetof(Facet, corner) + sizeof(FacetCorners) + 4 <= sizeof(Facet));
+    return gather({&facets[0]->corner, &facets[1]->corner, &facets[2]->corner, &facets[3]->corner}, low);
 }
 
 }  // namespace octavo::classic

@@ -41,80 +41,72 @@ bool InsideQuery::place(Vec3 point, Located& located) const {
     return true;
 }
 
-const InsideQuery::Entry* InsideQuery::top_cell(const Located& located) const {
-    return &top_[located.code >> (3 * (octree::max_level - top_level_))];
-}
-
-/// The cell of the brick `entry` that holds the point; `level` is that of the brick's cells.
-const InsideQuery::Entry* InsideQuery::brick_cell(Entry entry, const Located& located, int level) const {
-    // Bricks may reach below the last level of a code, which then goes on with zeros.
-    const int shift = 3 * (octree::max_level - level);
-    const std::uint64_t within = shift >= 0 ? located.code >> shift : located.code << -shift;
-    return &bricks_[std::size_t{entry & ~kind_mask} * brick_cells + (within & (brick_cells - 1))];
-}
-
-Side InsideQuery::test(const Leaf& leaf, const LatticePlace& place) const {
-    const std::span<const std::uint32_t> references(references_.data() + leaf.begin, leaf.end - leaf.begin);
+Side InsideQuery::test(const LeafRecord& leaf, const LatticePlace& place) const {
+    std::array<std::int32_t, 3> low;
     std::array<double, 3> offset;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        offset[axis] = static_cast<double>(place.whole[axis] - leaf.low[axis]) + place.part[axis];
-    if (const std::optional<int> change = winding_change(references, facets_, leaf.low, leaf.extent, offset))
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = place.whole[axis] & -octree::cell_side(leaf.level);
+        offset[axis] = static_cast<double>(place.whole[axis] - low[axis]) + place.part[axis];
+    }
+    if (const std::optional<int> change = winding_change(leaf.facets, facets_, low, leaf.extent, offset))
         return leaf.winding + *change > 0 ? Side::inside : Side::outside;
-    const LeafAnswer answer = test_in_leaf(place, leaf.low, leaf.winding, references, facets_, lattice_);
+    const LeafAnswer answer = test_in_leaf(place, low, leaf.winding, leaf.facets, facets_, lattice_);
     return answer.on_facet ? Side::on : answer.winding > 0 ? Side::inside : Side::outside;
 }
 
 Side InsideQuery::operator()(Vec3 point) const {
     Located located;
     if (!place(point, located)) return Side::outside;
-    Entry entry = *top_cell(located);
-    for (int level = top_level_ + brick_levels; kind_of(entry) == brick; level += brick_levels)
-        entry = *brick_cell(entry, located, level);
-    if (kind_of(entry) != gray) return entry == black ? Side::inside : Side::outside;
-    return test(leaves_[index_of(entry)], located.place);
+    const CellIndex::Entry entry = cells_.find(located.code);
+    if (entry.kind != CellIndex::Kind::gray)
+        return entry.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
+    return test(LeafRecord::at(leaves_.data() + entry.value), located.place);
 }
 
 /// Answers up to `block_size` points side by side: each round makes one load for every point that is still under way
 /// and asks for what the next round will load, so that the cache misses of a round overlap.
 void InsideQuery::answer_block(std::span<const Vec3> points, std::span<Side> sides) const {
     std::array<Located, block_size> located;
-    std::array<const Entry*, block_size> cells;
+    std::array<CellIndex::Entry, block_size> entries;
     std::array<std::uint8_t, block_size> active, in_gray;
     std::size_t under_way = 0, gray_count = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         sides[i] = Side::outside;
         if (!place(points[i], located[i])) continue;
-        cells[i] = top_cell(located[i]);
-        prefetch(cells[i]);
+        cells_.prefetch_top(located[i].code);
         active[under_way++] = static_cast<std::uint8_t>(i);
     }
-    std::array<const Leaf*, block_size> leaves;
-    for (int level = top_level_ + brick_levels; under_way > 0; level += brick_levels) {
+    // The first round looks into the table, the others into bricks.
+    for (int level = cells_.top_level() - CellIndex::brick_levels; under_way > 0;
+         level += CellIndex::brick_levels) {
         std::size_t still = 0;
         for (std::size_t k = 0; k < under_way; ++k) {
             const std::uint8_t i = active[k];
-            const Entry entry = *cells[i];
-            if (kind_of(entry) == brick) {
-                cells[i] = brick_cell(entry, located[i], level);
-                prefetch(cells[i]);
-                active[still++] = i;
-            } else if (kind_of(entry) == gray) {
-                leaves[i] = &leaves_[index_of(entry)];
-                prefetch(leaves[i]);
-                in_gray[gray_count++] = i;
-            } else {
-                sides[i] = entry == black ? Side::inside : Side::outside;
+            const std::uint64_t code = located[i].code;
+            entries[i] =
+                level < cells_.top_level() ? cells_.top(code) : cells_.below(entries[i], code, level);
+            switch (entries[i].kind) {
+                case CellIndex::Kind::brick:
+                    cells_.prefetch_brick(entries[i]);
+                    active[still++] = i;
+                    break;
+                case CellIndex::Kind::gray:
+                    prefetch(leaves_.data() + entries[i].value);
+                    in_gray[gray_count++] = i;
+                    break;
+                default:
+                    sides[i] = entries[i].kind == CellIndex::Kind::black ? Side::inside : Side::outside;
             }
         }
         under_way = still;
     }
-    for (std::size_t k = 0; k < gray_count; ++k) prefetch(references_.data() + leaves[in_gray[k]]->begin);
+    std::array<LeafRecord, block_size> leaves;
     for (std::size_t k = 0; k < gray_count; ++k) {
-        const Leaf& leaf = *leaves[in_gray[k]];
-        for (std::uint32_t r = leaf.begin; r < leaf.end; ++r) prefetch(&facets_[references_[r]]);
+        leaves[k] = LeafRecord::at(leaves_.data() + entries[in_gray[k]].value);
+        for (const std::uint32_t facet : leaves[k].facets) prefetch(&facets_[facet]);
     }
     for (std::size_t k = 0; k < gray_count; ++k)
-        sides[in_gray[k]] = test(*leaves[in_gray[k]], located[in_gray[k]].place);
+        sides[in_gray[k]] = test(leaves[k], located[in_gray[k]].place);
 }
 
 std::vector<Side> InsideQuery::operator()(std::span<const Vec3> points, const Context& context) const {
@@ -129,8 +121,8 @@ std::vector<Side> InsideQuery::operator()(std::span<const Vec3> points, const Co
 }
 
 std::size_t InsideQuery::memory_bytes() const {
-    return (top_.capacity() + bricks_.capacity()) * sizeof(Entry) + leaves_.capacity() * sizeof(Leaf) +
-           references_.capacity() * sizeof(std::uint32_t) + facets_.capacity() * sizeof(classic::Facet);
+    return cells_.memory_bytes() + leaves_.capacity() * sizeof(std::uint32_t) +
+           facets_.capacity() * sizeof(classic::FacetCorners);
 }
 
 Result<std::vector<Side>> contains(const mesh::Mesh& mesh, std::span<const Vec3> points,

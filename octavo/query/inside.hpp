@@ -11,6 +11,8 @@
 #include <octavo/classic/facet.hpp>
 #include <octavo/exact/lattice.hpp>
 #include <octavo/mesh/mesh.hpp>
+#include <octavo/query/cell_index.hpp>
+#include <octavo/query/leaf_record.hpp>
 #include <octavo/query/leaf_test.hpp>
 
 // Inside, on or outside: exact answers for arbitrary double points about a solid bounded by triangles.
@@ -22,8 +24,7 @@
 // change the winding number (simulation of simplicity, see classic/crossing.hpp); the signs are those of linear forms
 // at double points, by a filter first and exactly where that fails.
 //
-// Locating is made of few dependent loads: a dense table of the top levels, and below it bricks of 4×4×4 cells. A
-// batch runs many points through these loads side by side, so that their cache misses overlap.
+// Locating is made of few dependent loads (cell_index.hpp), and a leaf is one record (leaf_record.hpp). A batch runs many points through these loads side by side, so that their cache misses overlap.
 //
 // Rules at the rim: a point with an infinite coordinate is outside; one with a NaN lies nowhere and is reported as
 // outside too.
@@ -65,44 +66,23 @@ class InsideQuery {
     const exact::Lattice& lattice() const { return lattice_; }
     std::size_t memory_bytes() const;
 
-    /// A gray cell.
-    struct Leaf {
-        std::int32_t winding;  ///< at the low corner, displaced
-        std::array<std::int32_t, 3> low;
-        std::uint32_t begin, end;  ///< in `references_`
-        double extent;             ///< bounds coordinates relative to `low`, of the leaf and its facets
-    };
-    static_assert(sizeof(Leaf) == 32);
-
   private:
-    friend class InsideAssembly;
     struct Located;
 
-    /// A cell of the table or of a brick: two bits of kind and an index.
-    using Entry = std::uint32_t;
-    static constexpr Entry kind_mask = 3U << 30, white = 0, black = 1U << 30, gray = 2U << 30,
-                           brick = 3U << 30;
-    static constexpr int brick_levels = 2, brick_cells = 1 << (3 * brick_levels);
-
-    static constexpr Entry kind_of(Entry entry) { return entry & kind_mask; }
-    static constexpr std::size_t index_of(Entry entry) { return entry & ~kind_mask; }
     /// So many points are under way at once: a core follows 10 to 20 misses, and a block's facets fit its cache.
     static constexpr std::size_t block_size = 32;
 
     bool place(Vec3 point, Located& located) const;
-    const Entry* top_cell(const Located& located) const;
-    const Entry* brick_cell(Entry entry, const Located& located, int level) const;
-    Side test(const Leaf& leaf, const LatticePlace& place) const;
+    Side test(const LeafRecord& leaf, const LatticePlace& place) const;
     void answer_block(std::span<const Vec3> points, std::span<Side> sides) const;
 
     exact::Lattice lattice_;
     double inverse_unit_ = 1;
-    int top_level_ = 0;
-    std::vector<Entry> top_;     ///< the cells of `top_level_` in Morton order
-    std::vector<Entry> bricks_;  ///< 64 cells a brick, in Morton order
-    std::vector<Leaf> leaves_;
-    std::vector<std::uint32_t> references_;  ///< facets of the leaves
-    std::vector<classic::Facet> facets_;
+    CellIndex cells_;                    ///< of a gray one: where its record begins
+    std::vector<std::uint32_t> leaves_;  ///< records, in Morton order
+    /// In the order in which the leaves name them, so that those of one place lie side by side; one more after the
+    /// last, because they are read in words of 16 bytes.
+    std::vector<classic::FacetCorners> facets_;
 };
 
 /// One-off: builds an InsideQuery and asks it. Worth it from some hundred points on.

@@ -6,8 +6,8 @@
 #include <octavo/mesh/snap.hpp>
 #include <octavo/query/inside.hpp>
 
-// Building the inside query: the descent of the classic octree with lists kept in the leaves, then one pass that writes
-// the leaves, which come in Morton order, into the table and the bricks.
+// Building the inside query: the descent of the classic octree, whose leaves, which come in Morton order, become records
+// and items of the index.
 
 namespace octavo::query {
 namespace {
@@ -21,15 +21,9 @@ using octree::Cell;
 using octree::CellKey;
 using octree::Node;
 
-/// The leaves in Morton order; those of gray ones with their facets.
+/// The leaves in Morton order; those of gray ones with their records.
 class LeafList {
   public:
-    struct Item {
-        CellKey key;
-        Node node;
-        std::uint32_t leaf = 0;  ///< of a gray one, in `leaves`
-    };
-
     struct Workspace {
         FacetLists lists;
     };
@@ -37,40 +31,36 @@ class LeafList {
     void split(const Cell&, const FacetRange&, const Workspace&) {}
 
     void leaf(const Cell& cell, const octree::Restricted<FacetRange>& leaf, const Workspace& workspace) {
-        Item item{cell.key(), leaf.node, 0};
-        if (leaf.node == Node::gray) {
-            item.leaf = static_cast<std::uint32_t>(leaves.size());
-            const auto begin = static_cast<std::uint32_t>(references.size());
-            const std::span<const std::uint32_t> list = workspace.lists.list(cell.level, leaf.description);
-            references.insert(references.end(), list.begin(), list.end());
-            leaves.push_back({.winding = leaf.description.winding,
-                              .low = {cell.low.x, cell.low.y, cell.low.z},
-                              .begin = begin,
-                              .end = static_cast<std::uint32_t>(references.size()),
-                              .extent = static_cast<double>(cell.side())});
-        }
+        CellIndex::Item item{cell.key(), {kind_of(leaf.node), 0}};
+        if (leaf.node == Node::gray)
+            item.entry.value = static_cast<std::uint32_t>(
+                LeafRecord::append(records, cell.level, leaf.description.winding,
+                                   workspace.lists.list(cell.level, leaf.description)));
         items.push_back(item);
     }
 
     void merge(const Cell& cell, octree::Color color) {
         items.resize(items.size() - 8);
-        items.push_back({cell.key(), octree::leaf_of(color), 0});
+        items.push_back({cell.key(), {kind_of(octree::leaf_of(color)), 0}});
     }
 
     void append(LeafList&& next) {
-        const auto leaf_offset = static_cast<std::uint32_t>(leaves.size());
-        const auto reference_offset = static_cast<std::uint32_t>(references.size());
-        for (Item& item : next.items) item.leaf += leaf_offset;
-        for (InsideQuery::Leaf& leaf : next.leaves)
-            leaf.begin += reference_offset, leaf.end += reference_offset;
+        for (CellIndex::Item& item : next.items)
+            if (item.entry.kind == CellIndex::Kind::gray)
+                item.entry.value += static_cast<std::uint32_t>(records.size());
         items.insert(items.end(), next.items.begin(), next.items.end());
-        leaves.insert(leaves.end(), next.leaves.begin(), next.leaves.end());
-        references.insert(references.end(), next.references.begin(), next.references.end());
+        records.insert(records.end(), next.records.begin(), next.records.end());
     }
 
-    std::vector<Item> items;
-    std::vector<InsideQuery::Leaf> leaves;
-    std::vector<std::uint32_t> references;
+    std::vector<CellIndex::Item> items;
+    std::vector<std::uint32_t> records;
+
+  private:
+    static CellIndex::Kind kind_of(Node node) {
+        return node == Node::gray    ? CellIndex::Kind::gray
+               : node == Node::black ? CellIndex::Kind::black
+                                     : CellIndex::Kind::white;
+    }
 };
 
 class InsideProblem {
@@ -132,86 +122,39 @@ class InsideProblem {
     const InsideOptions& options_;
 };
 
-/// The dense table has about as many cells as there are leaves, and at most 2^18 (level 6, 1 MiB): larger ones fall
-/// out of the cache, smaller ones put a brick between more points and their leaf.
-int top_level_for(std::size_t leaves) {
-    int level = 0;
-    while (level < 6 && (std::size_t{1} << (3 * (level + 1))) <= leaves) ++level;
-    return level;
+/// Numbers the facets in the order in which the records name them, and tells the records how far their facets reach.
+std::vector<classic::FacetCorners> take_facets(LeafList& leaves, std::span<const Facet> facets) {
+    constexpr std::uint32_t unnamed = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> number(facets.size(), unnamed);
+    std::vector<classic::FacetCorners> ordered;
+    ordered.reserve(facets.size() + 1);
+    for (const CellIndex::Item& item : leaves.items) {
+        if (item.entry.kind != CellIndex::Kind::gray) continue;
+        std::uint32_t* head = leaves.records.data() + item.entry.value;
+        const std::size_t count = LeafRecord::at(head).facets.size();
+        const Cell cell = Cell::of(item.key);
+        std::int32_t extent = cell.side();
+        for (std::uint32_t *reference = head + LeafRecord::head_words(*head), *end = reference + count;
+             reference != end; ++reference) {
+            const Facet& facet = facets[*reference];
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto i = static_cast<std::size_t>(axis);
+                extent = std::max({extent, cell.low[axis] - facet.low[i], facet.high[i] - cell.low[axis]});
+            }
+            if (number[*reference] == unnamed) {
+                number[*reference] = static_cast<std::uint32_t>(ordered.size());
+                ordered.push_back(facet.corner);
+            }
+            *reference = number[*reference];
+        }
+        LeafRecord::set_extent(*head, static_cast<std::uint32_t>(extent));
+    }
+    ordered.emplace_back();
+    ordered.shrink_to_fit();
+    return ordered;
 }
 
 }  // namespace
-
-/// Writes leaves into the table and the bricks.
-class InsideAssembly {
-  public:
-    explicit InsideAssembly(InsideQuery& query) : query_(query) {}
-
-    void write(const std::vector<LeafList::Item>& items) {
-        query_.top_level_ = top_level_for(items.size());
-        query_.top_.assign(std::size_t{1} << (3 * query_.top_level_), InsideQuery::white);
-        for (const LeafList::Item& item : items) write(item);
-    }
-
-    /// Numbers the facets in the order in which the leaves name them, so that those of one place lie side by side.
-    void renumber_facets() {
-        constexpr std::uint32_t unnamed = std::numeric_limits<std::uint32_t>::max();
-        std::vector<std::uint32_t> number(query_.facets_.size(), unnamed);
-        std::vector<Facet> ordered;
-        ordered.reserve(query_.facets_.size());
-        for (std::uint32_t& reference : query_.references_) {
-            if (number[reference] == unnamed) {
-                number[reference] = static_cast<std::uint32_t>(ordered.size());
-                ordered.push_back(query_.facets_[reference]);
-            }
-            reference = number[reference];
-        }
-        query_.facets_ = std::move(ordered);
-    }
-
-    void measure_extents() {
-        for (InsideQuery::Leaf& leaf : query_.leaves_)
-            for (std::uint32_t r = leaf.begin; r < leaf.end; ++r) {
-                const Facet& facet = query_.facets_[query_.references_[r]];
-                for (std::size_t axis = 0; axis < 3; ++axis)
-                    leaf.extent =
-                        std::max({leaf.extent, static_cast<double>(leaf.low[axis] - facet.low[axis]),
-                                  static_cast<double>(facet.high[axis] - leaf.low[axis])});
-            }
-    }
-
-  private:
-    using Entry = InsideQuery::Entry;
-
-    void write(const LeafList::Item& item) {
-        const Entry entry = item.node == Node::gray    ? InsideQuery::gray | item.leaf
-                            : item.node == Node::black ? InsideQuery::black
-                                                       : InsideQuery::white;
-        const int level = item.key.level();
-        const std::uint64_t code = item.key.code();
-        int table_level = query_.top_level_;
-        std::vector<Entry>* table = &query_.top_;
-        std::size_t at = static_cast<std::size_t>(code >> (3 * (octree::max_level - table_level)));
-        while (level > table_level) {
-            if (((*table)[at] & InsideQuery::kind_mask) != InsideQuery::brick) {
-                const auto index = static_cast<Entry>(query_.bricks_.size() / InsideQuery::brick_cells);
-                (*table)[at] = InsideQuery::brick | index;
-                query_.bricks_.resize(query_.bricks_.size() + InsideQuery::brick_cells, InsideQuery::white);
-            }
-            const std::size_t brick = (*table)[at] & ~InsideQuery::kind_mask;
-            table = &query_.bricks_;
-            table_level += InsideQuery::brick_levels;
-            // Bricks may reach below the last level of a key; then its code goes on with zeros.
-            const int shift = 3 * (octree::max_level - table_level);
-            const std::uint64_t within = shift >= 0 ? code >> shift : code << -shift;
-            at = brick * InsideQuery::brick_cells + (within & (InsideQuery::brick_cells - 1));
-        }
-        std::fill_n(table->begin() + static_cast<std::ptrdiff_t>(at),
-                    std::size_t{1} << (3 * (table_level - level)), entry);
-    }
-
-    InsideQuery& query_;
-};
 
 Result<InsideQuery> InsideQuery::build(const mesh::LatticeMesh& mesh, const InsideOptions& options,
                                        const Context& context) {
@@ -229,22 +172,17 @@ Result<InsideQuery> InsideQuery::build(const mesh::LatticeMesh& mesh, const Insi
     descent.phase = "inside";
     Result<LeafList> leaves = octree::descend(InsideProblem(*facets, options), context, descent);
     if (!leaves) return leaves.error();
-    if (leaves->items.size() >= kind_mask >> 2)
+    // Values of the index have 30 bits; a brick has 68 words at most, and there are fewer bricks than leaves.
+    if (leaves->records.size() >= std::size_t{1} << 30 || leaves->items.size() >= (std::size_t{1} << 30) / 68)
         return Error{ErrorCode::limit, "the inside query has more leaves than it can number", {}};
 
     InsideQuery query;
     query.lattice_ = mesh.lattice;
     query.inverse_unit_ = 1 / mesh.lattice.unit();
-    query.facets_ = std::move(*facets);
-    query.leaves_ = std::move(leaves->leaves);
-    query.references_ = std::move(leaves->references);
-    InsideAssembly assembly(query);
-    assembly.write(leaves->items);
-    assembly.renumber_facets();
-    assembly.measure_extents();
-    query.bricks_.shrink_to_fit();
+    query.facets_ = take_facets(*leaves, *facets);
+    query.cells_ = CellIndex(leaves->items);
+    query.leaves_ = std::move(leaves->records);
     query.leaves_.shrink_to_fit();
-    query.references_.shrink_to_fit();
     return query;
 }
 

@@ -9,7 +9,7 @@
 namespace octavo::query {
 namespace {
 
-using classic::Facet;
+using classic::FacetCorners;
 using classic::FacetLanes;
 using classic::LaneFlags;
 using classic::Lanes;
@@ -77,14 +77,15 @@ inline Count count_path(const FacetLanes& facets, double extent, const std::arra
 
 }  // namespace
 
-std::optional<int> winding_change(std::span<const std::uint32_t> references, const std::vector<Facet>& facets,
+std::optional<int> winding_change(std::span<const std::uint32_t> references,
+                                  const std::vector<FacetCorners>& facets,
                                   const std::array<std::int32_t, 3>& low, double extent,
                                   const std::array<double, 3>& offset) {
     LaneFlags change{};
     for (std::size_t i = 0; i < references.size(); i += 4) {
         // Lanes beyond the last facet repeat it and do not count.
         const std::size_t last = references.size() - 1;
-        const std::array<const Facet*, 4> four{
+        const std::array<const FacetCorners*, 4> four{
             &facets[references[i]], &facets[references[std::min(i + 1, last)]],
             &facets[references[std::min(i + 2, last)]], &facets[references[std::min(i + 3, last)]]};
         const auto left = static_cast<std::int64_t>(references.size() - i);

@@ -24,8 +24,9 @@ namespace octavo::query {
 
 /// The change of the winding number from the leaf's displaced low corner to the point `offset` from it, as far as these
 /// facets cause it; none when rounding leaves a doubt, as for every point on a facet. `extent` is L.
+/// Four bytes after the last facet must be readable.
 std::optional<int> winding_change(std::span<const std::uint32_t> references,
-                                  const std::vector<classic::Facet>& facets,
+                                  const std::vector<classic::FacetCorners>& facets,
                                   const std::array<std::int32_t, 3>& low, double extent,
                                   const std::array<double, 3>& offset);
 

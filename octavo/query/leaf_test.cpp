@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include <octavo/exact/linear_form.hpp>
@@ -16,7 +17,7 @@
 namespace octavo::query {
 namespace {
 
-using classic::Facet;
+using classic::FacetCorners;
 using classic::Normal;
 using Corner = std::array<std::int32_t, 3>;
 
@@ -75,9 +76,9 @@ inline bool is_positive_displaced(int sign, const std::array<std::int64_t, 3>& c
     return c[0] != 0 ? c[0] > 0 : c[1] != 0 ? c[1] > 0 : c[2] > 0;
 }
 
-inline bool is_above(const MixedPoint& point, const Facet& facet, const Normal& n) {
+inline bool is_above(const MixedPoint& point, const FacetCorners& facet, const Normal& n) {
     const std::array<std::int64_t, 3> coefficients{n.x, n.y, n.z};
-    return is_positive_displaced(sign_at(point, coefficients, facet.corner[0]), coefficients);
+    return is_positive_displaced(sign_at(point, coefficients, facet[0]), coefficients);
 }
 
 /// Where a point lies in the projection of a facet along an axis.
@@ -87,11 +88,11 @@ struct InProjection {
 };
 
 /// `first` < `second` are the axes that are kept. The projection must have area.
-inline InProjection in_projection(const MixedPoint& point, const Facet& facet, std::size_t first,
+inline InProjection in_projection(const MixedPoint& point, const FacetCorners& facet, std::size_t first,
                                   std::size_t second) {
     bool any_left = false, any_right = false, all_left = true, all_right = true;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Corner &a = facet.corner[i], &b = facet.corner[(i + 1) % 3];
+        const Corner &a = facet[i], &b = facet[(i + 1) % 3];
         std::array<std::int64_t, 3> coefficients{};
         coefficients[first] = a[second] - b[second];
         coefficients[second] = b[first] - a[first];
@@ -106,23 +107,35 @@ inline InProjection in_projection(const MixedPoint& point, const Facet& facet, s
     return {true, all_left || all_right};
 }
 
-/// True when the coordinate q of an axis lies in the facet's closed bounds.
-inline bool in_bounds(const LatticePlace& place, const Facet& facet, std::size_t axis) {
+struct Bounds {
+    Corner low, high;  ///< both inclusive
+};
+inline Bounds bounds_of(const FacetCorners& facet) {
+    Bounds bounds;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        bounds.low[axis] = std::min({facet[0][axis], facet[1][axis], facet[2][axis]});
+        bounds.high[axis] = std::max({facet[0][axis], facet[1][axis], facet[2][axis]});
+    }
+    return bounds;
+}
+
+/// True when the coordinate q of an axis lies in a facet's bounds.
+inline bool in_bounds(const LatticePlace& place, const Bounds& bounds, std::size_t axis) {
     const std::int32_t whole = place.whole[axis];
-    return whole >= facet.low[axis] &&
-           (whole < facet.high[axis] || (whole == facet.high[axis] && place.part[axis] == 0));
+    return whole >= bounds.low[axis] &&
+           (whole < bounds.high[axis] || (whole == bounds.high[axis] && place.part[axis] == 0));
 }
 
 /// Whether the point, known to be in the facet's bounds, lies on a facet parallel to z.
-bool is_on_upright_facet(const MixedPoint& point, const Facet& facet, const Normal& n) {
-    if (sign_at(point, {n.x, n.y, n.z}, facet.corner[0]) != 0) return false;
+bool is_on_upright_facet(const MixedPoint& point, const FacetCorners& facet, const Normal& n) {
+    if (sign_at(point, {n.x, n.y, n.z}, facet[0]) != 0) return false;
     return n.x != 0 ? in_projection(point, facet, 1, 2).within_closed
                     : in_projection(point, facet, 0, 2).within_closed;
 }
 
 /// The change of the winding number along a step between two displaced points that differ in `axis`, +1 on entering,
 /// when the line of the step meets the facet's projection.
-int change_between(const MixedPoint& from, const MixedPoint& to, const Facet& facet, const Normal& n) {
+int change_between(const MixedPoint& from, const MixedPoint& to, const FacetCorners& facet, const Normal& n) {
     const bool above = is_above(from, facet, n);
     return above == is_above(to, facet, n) ? 0 : above ? 1 : -1;
 }
@@ -131,37 +144,38 @@ int change_between(const MixedPoint& from, const MixedPoint& to, const Facet& fa
 
 LeafAnswer test_in_leaf(const LatticePlace& place, const std::array<std::int32_t, 3>& low,
                         std::int32_t winding, std::span<const std::uint32_t> references,
-                        const std::vector<Facet>& facets, const exact::Lattice& lattice) {
+                        const std::vector<FacetCorners>& facets, const exact::Lattice& lattice) {
     const MixedPoint start{place, lattice, low, 0}, after_x{place, lattice, low, 1},
         after_y{place, lattice, low, 3}, point{place, lattice, low, 7};
     for (const std::uint32_t reference : references) {
-        const Facet& facet = facets[reference];
-        const bool x_in = in_bounds(place, facet, 0), y_in = in_bounds(place, facet, 1);
+        const FacetCorners& facet = facets[reference];
+        const Bounds bounds = bounds_of(facet);
+        const bool x_in = in_bounds(place, bounds, 0), y_in = in_bounds(place, bounds, 1);
         // Displaced whole coordinates lie within bounds [a, b] iff a ≤ v < b.
         const auto low_within = [&](std::size_t axis) {
-            return facet.low[axis] <= low[axis] && low[axis] < facet.high[axis];
+            return bounds.low[axis] <= low[axis] && low[axis] < bounds.high[axis];
         };
         const bool z_low_within = low_within(2);
         const bool third = x_in && y_in, second = x_in && z_low_within, first = z_low_within && low_within(1);
         if (!third && !second && !first) continue;
-        const Normal n = normal_of(facet);
+        const Normal n = classic::normal_of(facet);
         if (first && n.x != 0 && in_projection(start, facet, 1, 2).within_displaced)
             winding += change_between(start, after_x, facet, n);
         if (second && n.y != 0 && in_projection(after_x, facet, 0, 2).within_displaced)
             winding += change_between(after_x, after_y, facet, n);
         if (!third) continue;
         if (n.z == 0) {
-            if (in_bounds(place, facet, 2) && is_on_upright_facet(point, facet, n)) return {true, 0};
+            if (in_bounds(place, bounds, 2) && is_on_upright_facet(point, facet, n)) return {true, 0};
             continue;
         }
         const InProjection seen = in_projection(point, facet, 0, 1);
         if (!seen.within_closed) continue;
         const std::array<std::int64_t, 3> coefficients{n.x, n.y, n.z};
-        const int side = sign_at(point, coefficients, facet.corner[0]);
+        const int side = sign_at(point, coefficients, facet[0]);
         if (side == 0) return {true, 0};
         if (!seen.within_displaced) continue;
         // A facet wholly above the low side has the step's start below it.
-        const bool starts_above = facet.low[2] > low[2] ? n.z < 0 : is_above(after_y, facet, n);
+        const bool starts_above = bounds.low[2] > low[2] ? n.z < 0 : is_above(after_y, facet, n);
         if (starts_above != (side > 0)) winding += starts_above ? 1 : -1;
     }
     return {false, winding};

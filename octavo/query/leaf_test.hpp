@@ -32,6 +32,6 @@ struct LeafAnswer {
 /// `winding` is that of the displaced low corner.
 LeafAnswer test_in_leaf(const LatticePlace& place, const std::array<std::int32_t, 3>& low,
                         std::int32_t winding, std::span<const std::uint32_t> references,
-                        const std::vector<classic::Facet>& facets, const exact::Lattice& lattice);
+                        const std::vector<classic::FacetCorners>& facets, const exact::Lattice& lattice);
 
 }  // namespace octavo::query

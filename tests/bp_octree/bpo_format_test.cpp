@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bp_octree/sign_bpo.hpp"
 #include "bp_octree/solids.hpp"
 #include <octavo/bp_octree/bit_stream.hpp>
 #include <octavo/bp_octree/bpo_format.hpp>
@@ -178,40 +179,11 @@ TEST(Bpo, EveryFlippedBitIsNoticed) {
     }
 }
 
-/// Recomputes all checksums, as a liar would.
-void sign(std::vector<std::uint8_t>& bytes) {
-    const auto put = [&](std::size_t at, std::uint32_t value) {
-        for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
-    };
-    const auto get = [&](std::size_t at) {
-        std::uint32_t value = 0;
-        for (std::size_t i = 0; i < 4; ++i) value |= std::uint32_t{bytes[at + i]} << (8 * i);
-        return value;
-    };
-    // What the lie itself puts out of reach stays unsigned.
-    const std::size_t levels = get(76), index = BpoHead::size + levels * BpoHead::level_size;
-    if (index > bytes.size()) return;
-    put(12, 0);
-    put(12, crc32_of(std::span(bytes).first(index)));
-    const std::size_t chunks = get(136);
-    for (std::size_t page = 0; page * entries_a_page < chunks; ++page) {
-        const std::size_t at = index + page * page_size;
-        if (at + page_size > bytes.size()) return;
-        for (std::size_t i = 0; i < std::min(entries_a_page, chunks - page * entries_a_page); ++i) {
-            const std::size_t entry = at + page_head + i * ChunkEntry::size_in_file;
-            const std::size_t offset = get(entry), size = get(entry + 8);
-            if (offset + size <= bytes.size())
-                put(entry + 12, crc32_of(std::span(bytes).subspan(offset, size)));
-        }
-        put(at, crc32_of(std::span(bytes).subspan(at + 4, page_size - 4)));
-    }
-}
-
 TEST(Bpo, LiesWithGoodChecksumsNeverCrashAndWhatIsAcceptedCanBeCertified) {
     const BpOctree tree = sample_tree(3);
     const std::vector<std::uint8_t> bytes = encode(tree);
     std::vector<std::uint8_t> same = bytes;
-    sign(same);
+    tests::sign_bpo(same);
     ASSERT_EQ(same, bytes);
     std::mt19937 random(4);
     int refused = 0, uncertified = 0;
@@ -219,7 +191,7 @@ TEST(Bpo, LiesWithGoodChecksumsNeverCrashAndWhatIsAcceptedCanBeCertified) {
         std::vector<std::uint8_t> lie = bytes;
         for (unsigned k = 0; k <= random() % 3; ++k)
             lie[i % 2 ? random() % bytes.size() : random() % 700] = static_cast<std::uint8_t>(random());
-        sign(lie);
+        tests::sign_bpo(lie);
         auto back = decode(lie);
         if (!back)
             ++refused;
