@@ -52,14 +52,20 @@ class CellIndex::Builder {
 
     std::uint32_t write(const std::array<Entry, brick_cells>& entries) {
         const auto at = static_cast<std::uint32_t>(index_.bricks_.size());
-        std::array<std::uint64_t, 2> masks{};
-        for (std::size_t i = 0; i < brick_cells; ++i)
-            for (std::size_t bit = 0; bit < 2; ++bit)
-                masks[bit] |= std::uint64_t{static_cast<unsigned>(entries[i].kind) >> bit & 1U} << i;
-        index_.bricks_.resize(at + 4);
+        std::array<std::uint64_t, 3> masks{};
+        index_.bricks_.resize(at + head_words);
+        for (std::size_t i = 0; i < brick_cells; ++i) {
+            const Entry& entry = entries[i];
+            const auto kind = static_cast<std::uint64_t>(entry.kind);
+            masks[0] |= (kind & 1) << i;
+            masks[1] |= (kind >> 1) << i;
+            if (kind < 2 ||
+                (i > 0 && entries[i - 1].kind == entry.kind && entries[i - 1].value == entry.value))
+                continue;
+            masks[2] |= std::uint64_t{1} << i;
+            index_.bricks_.push_back(entry.value);
+        }
         std::memcpy(index_.bricks_.data() + at, masks.data(), sizeof masks);
-        for (const Entry& entry : entries)
-            if (entry.kind == Kind::gray || entry.kind == Kind::brick) index_.bricks_.push_back(entry.value);
         return at;
     }
 

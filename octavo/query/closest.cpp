@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #ifdef __AVX__
 #include <immintrin.h>
@@ -32,6 +34,22 @@ Float8 root(Float8 x) {
     Float8 result;
     for (int i = 0; i < 8; ++i) result[i] = std::sqrt(x[i]);
     return result;
+}
+
+/// Bit i is set where flag i is.
+unsigned bits_of(Int8 flags) {
+#ifdef __AVX__
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(flags)));
+#endif
+    unsigned bits = 0;
+    for (int i = 0; i < 8; ++i) bits |= flags[i] ? 1U << i : 0U;
+    return bits;
+}
+
+float least(Float8 x) {
+    const Float8 four = smaller(x, __builtin_shufflevector(x, x, 4, 5, 6, 7, 0, 1, 2, 3));
+    const Float8 two = smaller(four, __builtin_shufflevector(four, four, 2, 3, 0, 1, 6, 7, 4, 5));
+    return std::min(two[0], two[1]);
 }
 
 struct Float8x3 {
@@ -164,10 +182,12 @@ ClosestQuery::Nearest ClosestQuery::search(const FixedPoint& fixed, mesh::FaceIn
         const Measured measured = measure(leaf, q);
         const Float8 at_least = measured.distance - measured.error,
                      at_most = measured.distance + measured.error;
-        for (std::size_t i = 0; i < leaf.count; ++i) bound = at_most[i] < bound ? at_most[i] : bound;
-        for (std::size_t i = 0; i < leaf.count; ++i) {
-            // Written so that an error bound of infinity, whose difference may be no number, keeps the triangle.
-            if (at_least[i] > bound) continue;
+        // A bound that is no number loses every comparison; unused places repeat the first triangle.
+        bound = std::min(bound, least(at_most == at_most ? at_most : all(infinity)));
+        // Written so that an error bound of infinity, whose difference may be no number, keeps the triangle.
+        unsigned kept_triangles = ~bits_of(at_least > all(bound)) & ((1U << leaf.count) - 1);
+        for (; kept_triangles != 0; kept_triangles &= kept_triangles - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(kept_triangles));
             if (candidate_count == candidates.size()) {
                 std::size_t kept = 0;
                 for (const Candidate& c : candidates)
@@ -192,12 +212,14 @@ ClosestQuery::Nearest ClosestQuery::search(const FixedPoint& fixed, mesh::FaceIn
             const Float8 squares = squares_to_boxes(node, float_q);
             const float limit = bound * bound * (1 + 0x1p-22F);
             const std::size_t base = waiting;
-            for (std::size_t i = 0; i < tree_width; ++i) {
-                if (!(squares[i] <= limit)) continue;
+            alignas(32) std::array<float, tree_width> square;
+            std::memcpy(square.data(), &squares, sizeof squares);
+            for (unsigned near = bits_of(squares <= all(limit)); near != 0; near &= near - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(near));
                 // Farthest first, so that the nearest is on top.
                 std::size_t at = waiting++;
-                for (; at > base && stack[at - 1].square < squares[i]; --at) stack[at] = stack[at - 1];
-                stack[at] = {squares[i], node.child[i]};
+                for (; at > base && stack[at - 1].square < square[i]; --at) stack[at] = stack[at - 1];
+                stack[at] = {square[i], node.child[i]};
             }
         }
         const float limit = bound * bound * (1 + 0x1p-22F);

@@ -172,8 +172,8 @@ Result<InsideQuery> InsideQuery::build(const mesh::LatticeMesh& mesh, const Insi
     descent.phase = "inside";
     Result<LeafList> leaves = octree::descend(InsideProblem(*facets, options), context, descent);
     if (!leaves) return leaves.error();
-    // Values of the index have 30 bits; a brick has 68 words at most, and there are fewer bricks than leaves.
-    if (leaves->records.size() >= std::size_t{1} << 30 || leaves->items.size() >= (std::size_t{1} << 30) / 68)
+    // Values of the index have 30 bits; a brick has 70 words at most, and there are fewer bricks than leaves.
+    if (leaves->records.size() >= std::size_t{1} << 30 || leaves->items.size() >= (std::size_t{1} << 30) / 70)
         return Error{ErrorCode::limit, "the inside query has more leaves than it can number", {}};
 
     InsideQuery query;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include <octavo/query/triangle_distance.hpp>
 
@@ -49,6 +50,93 @@ bool product_exceeds(int128 a, int128 b, int128 c, int128 d) {
 }
 
 double square(double x) { return x * x; }
+
+/// A double and a bound on how far the number it stands for is from it. Bounds are themselves rounded, by less than
+/// 2^-40 of them in the few steps taken here, for which `sign` allows.
+struct Rounded {
+    double value = 0, error = 0;
+    static constexpr double unit = 0x1p-53;
+
+    static Rounded of(std::int64_t exact) {
+        const double value = static_cast<double>(exact);
+        return {value, unit * std::fabs(value)};
+    }
+    /// 0 when it is not known.
+    int sign() const {
+        const double bound = error * (1 + 0x1p-40);
+        return (value > bound) - (value < -bound);
+    }
+};
+Rounded operator+(Rounded a, Rounded b) {
+    const double value = a.value + b.value;
+    return {value, a.error + b.error + Rounded::unit * std::fabs(value)};
+}
+Rounded operator-(Rounded a, Rounded b) { return a + Rounded{-b.value, b.error}; }
+Rounded operator*(Rounded a, Rounded b) {
+    const double value = a.value * b.value;
+    return {value, std::fabs(a.value) * b.error + std::fabs(b.value) * a.error + a.error * b.error +
+                       Rounded::unit * std::fabs(value)};
+}
+Rounded dot(const std::array<Rounded, 3>& u, const std::array<Rounded, 3>& v) {
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+std::array<Rounded, 3> rounded(const Difference& d) {
+    return {Rounded::of(d[0]), Rounded::of(d[1]), Rounded::of(d[2])};
+}
+
+/// The part of a triangle a, b, c that is nearest.
+enum class Region : std::uint8_t { a, b, c, ab, ac, bc, face };
+
+/// The region, when doubles can tell. Points on borders of regions are left to the exact tests, whose order this
+/// follows.
+std::optional<Region> region_by_filter(const Difference& edge_b, const Difference& edge_c,
+                                       const Difference& from_a, double one) {
+    const std::array<Rounded, 3> ab = rounded(edge_b), ac = rounded(edge_c), qa = rounded(from_a);
+    const Rounded unit{one, 0};  // a power of two
+    const Rounded ab_ac = dot(ab, ac) * unit;
+    const Rounded d1 = dot(ab, qa), d2 = dot(ac, qa);
+    const Rounded d3 = d1 - dot(ab, ab) * unit, d4 = d2 - ab_ac, d5 = d1 - ab_ac,
+                  d6 = d2 - dot(ac, ac) * unit;
+    const int s1 = d1.sign(), s2 = d2.sign(), s3 = d3.sign(), s6 = d6.sign(), s43 = (d4 - d3).sign(),
+              s56 = (d5 - d6).sign();
+    if (s1 == 0 || s2 == 0 || s3 == 0 || s6 == 0 || s43 == 0 || s56 == 0) return std::nullopt;
+    if (s1 < 0 && s2 < 0) return Region::a;
+    if (s3 > 0 && s43 < 0) return Region::b;
+    if (s6 > 0 && s56 < 0) return Region::c;
+    if (s1 > 0 && s3 < 0) {
+        const int beyond = (d1 * d4 - d3 * d2).sign();
+        if (beyond == 0) return std::nullopt;
+        if (beyond < 0) return Region::ab;
+    }
+    if (s2 > 0 && s6 < 0) {
+        const int beyond = (d5 * d2 - d1 * d6).sign();
+        if (beyond == 0) return std::nullopt;
+        if (beyond < 0) return Region::ac;
+    }
+    if (s43 > 0 && s56 > 0) {
+        const int beyond = (d3 * d6 - d5 * d4).sign();
+        if (beyond == 0) return std::nullopt;
+        if (beyond < 0) return Region::bc;
+    }
+    return Region::face;
+}
+
+/// The same for every point; degenerate triangles have no face.
+Region region_exactly(const Difference& ab, const Difference& ac, const Difference& qa, int shift) {
+    const int128 unit = int128{1} << shift;
+    const int128 ab_ac = dot(ab, ac) * unit, ab_ab = dot(ab, ab) * unit, ac_ac = dot(ac, ac) * unit;
+    const int128 d1 = dot(ab, qa), d2 = dot(ac, qa);
+    if (d1 <= 0 && d2 <= 0) return Region::a;
+    const int128 d3 = d1 - ab_ab, d4 = d2 - ab_ac;
+    if (d3 >= 0 && d4 <= d3) return Region::b;
+    const int128 d5 = d1 - ab_ac, d6 = d2 - ac_ac;
+    if (d6 >= 0 && d5 <= d6) return Region::c;
+    // Strict signs along the edges keep edges without length out; for others they change nothing.
+    if (d1 > 0 && d3 < 0 && !product_exceeds(d1, d4, d3, d2)) return Region::ab;
+    if (d2 > 0 && d6 < 0 && !product_exceeds(d5, d2, d1, d6)) return Region::ac;
+    if (d4 > d3 && d5 > d6 && !product_exceeds(d3, d6, d5, d4)) return Region::bc;
+    return Region::face;
+}
 
 struct Fraction {
     WideInt<4> numerator;
@@ -144,18 +232,24 @@ NearestFeature nearest_feature(const FixedPoint& q, const mesh::LatticeMesh& mes
     };
 
     const Difference ab = edge(a, b), ac = edge(a, c), qa = difference(q, a);
-    const int128 unit = int128{1} << q.shift;
-    const int128 ab_ac = dot(ab, ac) * unit, ab_ab = dot(ab, ab) * unit, ac_ac = dot(ac, ac) * unit;
-    const int128 d1 = dot(ab, qa), d2 = dot(ac, qa);
-    if (d1 <= 0 && d2 <= 0) return at_vertex(t[0]);
-    const int128 d3 = d1 - ab_ab, d4 = d2 - ab_ac;
-    if (d3 >= 0 && d4 <= d3) return at_vertex(t[1]);
-    const int128 d5 = d1 - ab_ac, d6 = d2 - ac_ac;
-    if (d6 >= 0 && d5 <= d6) return at_vertex(t[2]);
-    // Strict signs along the edges keep edges without length out; for others they change nothing.
-    if (d1 > 0 && d3 < 0 && !product_exceeds(d1, d4, d3, d2)) return on_edge(t[0], t[1]);
-    if (d2 > 0 && d6 < 0 && !product_exceeds(d5, d2, d1, d6)) return on_edge(t[0], t[2]);
-    if (d4 > d3 && d5 > d6 && !product_exceeds(d3, d6, d5, d4)) return on_edge(t[1], t[2]);
+    const std::optional<Region> known =
+        region_by_filter(ab, ac, qa, static_cast<double>(std::int64_t{1} << q.shift));
+    switch (known ? *known : region_exactly(ab, ac, qa, q.shift)) {
+        case Region::a:
+            return at_vertex(t[0]);
+        case Region::b:
+            return at_vertex(t[1]);
+        case Region::c:
+            return at_vertex(t[2]);
+        case Region::ab:
+            return on_edge(t[0], t[1]);
+        case Region::ac:
+            return on_edge(t[0], t[2]);
+        case Region::bc:
+            return on_edge(t[1], t[2]);
+        case Region::face:
+            break;
+    }
     const Difference n = normal(ab, ac);
     const double along = static_cast<double>(dot(n, qa));
     const double length2 = square(static_cast<double>(n[0])) + square(static_cast<double>(n[1])) +
