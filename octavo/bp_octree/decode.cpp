@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <bit>
 #include <optional>
 #include <string>
 
 #include <octavo/base/parallel.hpp>
-#include <octavo/bp_octree/bit_stream.hpp>
+#include <octavo/bp_octree/bpo_chunks.hpp>
 #include <octavo/bp_octree/bpo_format.hpp>
 #include <octavo/bp_octree/bpo_layout.hpp>
-#include <octavo/bp_octree/geometry_codec.hpp>
 #include <octavo/bp_octree/leaf_lists.hpp>
-#include <octavo/io/bytes.hpp>
 #include <octavo/mesh/weld.hpp>
 
 namespace octavo::bp_octree {
@@ -18,19 +15,13 @@ namespace {
 
 using octree::Node;
 
-Error damaged(std::string sentence, std::uint64_t byte) {
-    Error error{ErrorCode::bad_input, "the .bpo file is damaged: " + std::move(sentence), {}};
-    error.place.byte = byte;
-    return error;
-}
+constexpr auto damaged = damaged_bpo;
 
 Result<std::span<const std::uint8_t>> chunk_bytes(const ChunkEntry& entry,
                                                   std::span<const std::uint8_t> file) {
     if (entry.offset > file.size() || entry.size > file.size() - entry.offset)
         return damaged("it ends within a chunk", file.size());
-    const auto bytes = file.subspan(entry.offset, entry.size);
-    if (crc32_of(bytes) != entry.checksum) return damaged("the checksum of a chunk is wrong", entry.offset);
-    return bytes;
+    return file.subspan(entry.offset, entry.size);
 }
 
 /// Rebuilds nodes and planes from the envelope chunks, level by level.
@@ -50,16 +41,12 @@ class TreeDecoder {
             return damaged("a level is not complete", entry.offset);
         if (entry.level != level_) finish_level();
         if (level_ == 0 && !tree_.nodes.empty()) return damaged("it has two roots", entry.offset);
-        const std::uint64_t nodes = level_ == 0 ? 1 : std::uint64_t{8} * entry.count;
-        if (entry.first != parents_done_ || entry.count > parents() - parents_done_ ||
-            (level_ > 0 && entry.count == 0) || (*bytes).size() * 4 < nodes)
+        if (entry.first != parents_done_ || entry.count > parents() - parents_done_)
             return damaged("a chunk does not follow the one before it", entry.offset);
+        auto chunk = decode_envelope_chunk(entry, *bytes, tree_.is_solid);
+        if (!chunk) return chunk.error();
         parents_done_ += entry.count;
-        const std::size_t first = tree_.nodes.size();
-        BitReader bits(*bytes);
-        for (std::uint64_t i = 0; i < nodes; ++i) tree_.nodes.push_back(static_cast<Node>(bits.get(2)));
-        for (std::size_t node = first; node < tree_.nodes.size(); ++node) add_envelope(node, bits);
-        if (!bits.finished() || !sound_) return damaged("a chunk of envelopes is wrong", entry.offset);
+        append(*chunk);
         return Done{};
     }
 
@@ -76,37 +63,30 @@ class TreeDecoder {
     /// How many parents the chunks of the present level are about; the root has none.
     std::uint64_t parents() const { return level_ == 0 ? 0 : levels_[level_ - 1].split; }
 
-    void add_envelope(std::size_t node, BitReader& bits) {
-        Node& kind = tree_.nodes[node];
-        std::uint32_t planes = 0;
-        ++(kind == Node::split   ? seen_.split
-           : kind == Node::gray  ? seen_.gray
-           : kind == Node::white ? seen_.white
-                                 : seen_.black);
-        tree_.link.push_back(0);
-        if (kind == Node::split || kind == Node::gray) {
-            planes = bits.get(4);
-            if (planes == 15) planes += bits.get(16);
-            for (std::uint32_t i = 0; i < planes && !bits.overrun(); ++i) {
-                BoundingPlane plane;
-                plane.direction = static_cast<DirectionCode>(bits.get(16));
-                plane.offset = static_cast<std::uint16_t>(bits.get(12));
-                if (plane.direction >= direction_codes || plane.offset > largest_offset) sound_ = false;
-                tree_.planes.push_back(plane);
-            }
-            seen_.planes += planes;
-            const bool has_winding = kind == Node::gray && tree_.is_solid;
-            const std::int32_t winding = has_winding ? unzigzag(bits.get_rice(1)) : 0;
-            if (kind == Node::split && static_cast<int>(level_) == last_level_) kind = Node::gray;
-            if (kind == Node::split) {
+    void append(const EnvelopeChunk& chunk) {
+        const auto planes_before = static_cast<std::uint32_t>(tree_.planes.size());
+        const bool is_last = static_cast<int>(level_) == last_level_;
+        std::size_t gray = 0;
+        for (std::size_t i = 0; i < chunk.nodes.size(); ++i) {
+            const Node kind = chunk.nodes[i];
+            ++(kind == Node::split   ? seen_.split
+               : kind == Node::gray  ? seen_.gray
+               : kind == Node::white ? seen_.white
+                                     : seen_.black);
+            const std::int32_t winding = kind == Node::gray ? chunk.windings[gray++] : 0;
+            tree_.nodes.push_back(kind == Node::split && is_last ? Node::gray : kind);
+            tree_.link.push_back(0);
+            if (tree_.nodes.back() == Node::split) {
                 tree_.link.back() = static_cast<std::uint32_t>(1 + 8 * splits_++);
-            } else {
+            } else if (tree_.nodes.back() == Node::gray) {
                 tree_.link.back() = static_cast<std::uint32_t>(tree_.leaf_count());
                 tree_.leaf_begin.push_back(0);
                 tree_.leaf_winding.push_back(winding);
             }
+            tree_.plane_begin.push_back(planes_before + chunk.plane_begin[i + 1]);
         }
-        tree_.plane_begin.push_back(static_cast<std::uint32_t>(tree_.planes.size()));
+        tree_.planes.insert(tree_.planes.end(), chunk.planes.begin(), chunk.planes.end());
+        seen_.planes += chunk.planes.size();
     }
 
     void finish_level() {
@@ -132,24 +112,13 @@ class TreeDecoder {
 Result<DecodedGeometry> decode_triangles(const ChunkEntry& entry, std::span<const std::uint8_t> file) {
     auto bytes = chunk_bytes(entry, file);
     if (!bytes) return bytes.error();
-    if ((*bytes).size() < 8) return damaged("a chunk of triangles is too short", entry.offset);
-    const auto* data = reinterpret_cast<const std::byte*>((*bytes).data());
-    const auto total = io::load<std::uint32_t>(data), size = io::load<std::uint32_t>(data + 4);
-    if (size > (*bytes).size() - 8 || entry.count > total)
-        return damaged("a chunk of triangles is wrong", entry.offset);
-    auto geometry = decode_geometry((*bytes).subspan(8, size), total);
-    if (!geometry) return damaged(geometry.error().sentence, entry.offset);
-    BitReader flags((*bytes).subspan(8 + size));
+    auto chunk = decode_triangle_chunk(entry, *bytes);
+    if (!chunk) return chunk.error();
     std::vector<mesh::Triangle> fresh;
-    for (const mesh::Triangle& t : geometry->triangles)
-        if (flags.get(1)) fresh.push_back(t);
-    for (std::size_t i = fresh.size(); i < total; ++i)
-        if (flags.get(std::bit_width(entry.first)) >= entry.first)
-            return damaged("a repeated triangle has no number", entry.offset);
-    if (!flags.finished() || fresh.size() != entry.count)
-        return damaged("a chunk of triangles has the wrong number", entry.offset);
-    geometry->triangles = std::move(fresh);
-    return std::move(*geometry);
+    for (std::size_t i = 0; i < chunk->is_new.size(); ++i)
+        if (chunk->is_new[i]) fresh.push_back(chunk->geometry.triangles[i]);
+    chunk->geometry.triangles = std::move(fresh);
+    return std::move(chunk->geometry);
 }
 
 Status add_mesh(BpOctree& tree, const BpoHead& head, std::span<const ChunkEntry> entries,
