@@ -122,8 +122,8 @@ Pieces subdivide_facet(const Soup& soup, const Sheet& sheet, const CutPlanes& pl
 /// leaves it.
 class CoverSearch {
   public:
-    CoverSearch(const Soup& soup, const Sheet& sheet, const Plane& plane, const Subdivision& subdivision)
-        : soup_(soup), sheet_(sheet), plane_(plane), subdivision_(subdivision) {}
+    CoverSearch(const Soup& soup, const Plane& plane, const Subdivision& subdivision)
+        : soup_(soup), plane_(plane), subdivision_(subdivision) {}
 
     /// Fills `covers`, and `cover` per triangle of the subdivision: no_index outside of all facets.
     void run(std::vector<std::uint32_t>& cover, std::vector<Pieces::Cover>& covers) {
@@ -209,7 +209,6 @@ class CoverSearch {
     }
 
     const Soup& soup_;
-    const Sheet& sheet_;
     const Plane& plane_;
     const Subdivision& subdivision_;
 };
@@ -266,7 +265,7 @@ Pieces subdivide_sheet(const Soup& soup, const Sheet& sheet, const CutPlanes& pl
 
     Pieces pieces;
     std::vector<std::uint32_t> cover;
-    CoverSearch search(soup, sheet, plane, subdivision);
+    CoverSearch search(soup, plane, subdivision);
     search.run(cover, pieces.covers);
     const auto triangles = subdivision.triangles();
     for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
