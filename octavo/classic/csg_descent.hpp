@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include <octavo/csg/local_arrangement.hpp>
-#include <octavo/csg/prune.hpp>
+#include <octavo/csg/brick.hpp>
+#include <octavo/csg/second_look.hpp>
 #include <octavo/octree/descend.hpp>
 
 // A CSG program as a problem of the one descent (octree/descend.hpp).
@@ -33,6 +34,14 @@ class CsgDescent {
     struct Description {
         std::uint32_t begin = 0, size = 0;
         std::uint32_t buffer = 0;
+
+        /// A cell above the last level whose octants have been coloured with those of its siblings.
+        static constexpr std::uint32_t colored = ~std::uint32_t{0};
+        static Description of(csg::OctantColors octants) { return {octants.white, octants.black, colored}; }
+        bool is_colored() const { return buffer == colored; }
+        csg::OctantColors octants() const {
+            return {static_cast<std::uint8_t>(begin), static_cast<std::uint8_t>(size)};
+        }
     };
 
     struct Counters {
@@ -48,7 +57,7 @@ class CsgDescent {
             std::uint64_t bytes = 0;
             for (const auto& buffer : buffers) bytes += buffer.capacity() * sizeof(std::uint32_t);
             counters_->octants += octants;
-            counters_->tests += pruner.primitive_tests();
+            counters_->tests += pruner.primitive_tests() + brick.primitive_tests();
             counters_->resolved += resolved;
             std::uint64_t most = counters_->program_bytes;
             while (bytes > most && !counters_->program_bytes.compare_exchange_weak(most, bytes)) {
@@ -60,8 +69,10 @@ class CsgDescent {
         }
 
         csg::Pruner pruner;
-        csg::LocalArrangement arrangement;
-        std::array<std::vector<std::uint32_t>, octree::max_level + 2> buffers;
+        csg::Brick brick;
+        csg::SecondLook second_look;
+        std::array<csg::Scratch<std::uint32_t>, octree::max_level + 2> buffers;
+        csg::Scratch<std::uint32_t> cell_words;
         std::uint64_t octants = 0, resolved = 0;
 
       private:
@@ -96,57 +107,106 @@ class CsgDescent {
     Output make_output() const { return {}; }
 
     octree::Restricted<Description> root(Workspace& workspace) const {
-        workspace.buffers[0].assign(words_.begin(), words_.end());
+        put(words_, workspace.buffers[0]);
         return {octree::Node::split, {0, static_cast<std::uint32_t>(words_.size()), 0}};
     }
 
-    std::size_t weight(const Description& description) const { return description.size; }
+    std::size_t weight(const Description& description) const {
+        return description.is_colored() ? 1 : description.size;
+    }
 
     Description transfer(const octree::Cell&, const Description& description, const Workspace& from,
                          Workspace& to) const {
+        if (description.is_colored()) return description;
         const std::span<const std::uint32_t> words = from.words(description);
-        to.buffers[description.buffer].assign(words.begin(), words.end());
+        put(words, to.buffers[description.buffer]);
         return {0, description.size, description.buffer};
     }
 
     void restrict_to_children(const octree::Cell& parent, const Description& description,
                               Workspace& workspace, octree::Children<Description>& children) const {
-        const std::span<const std::uint32_t> words = workspace.words(description);
-        const csg::OctantColors colors = workspace.pruner.evaluate(program_, words, parent);
         workspace.octants += 8;
-        const bool last = parent.level + 1 == options_.depth;
-        for (std::size_t i = 0; i < 8; ++i) children[i].node = octree::leaf_of(colors[static_cast<int>(i)]);
-        if (last && options_.last_level == CsgDescentOptions::LastLevel::keep_gray) return;
-        if (colors.gray() == 0) return;
-        if (workspace.pruner.unchanged()) {
-            if (last) return;  // one surface, and it meets each of these cells
-            for (octree::Restricted<Description>& child : children)
-                if (child.node == octree::Node::gray) child = {octree::Node::split, description};
-            return;
-        }
+        if (description.is_colored()) return give_colors(description.octants(), children);
+        const std::span<const std::uint32_t> words = workspace.words(description);
+        if (parent.level + 2 == options_.depth) return color_brick(parent, words, workspace, children);
+        csg::Pruner& pruner = workspace.pruner;
+        const csg::Seen seen = pruner.evaluate(program_, words, parent);
+        if (parent.level + 1 == options_.depth)
+            return give_colors(looked_at_again(parent, words, workspace, seen), children);
         const auto buffer = static_cast<std::uint32_t>(parent.level + 1);
-        std::vector<std::uint32_t>& to = workspace.buffers[buffer];
-        to.clear();
+        csg::Scratch<std::uint32_t>& to = workspace.buffers[buffer];
+        if (!pruner.unchanged()) to.clear();
         for (int i = 0; i < 8; ++i) {
             octree::Restricted<Description>& child = children[static_cast<std::size_t>(i)];
+            child.node = octree::leaf_of(seen.octants[i]);
             if (child.node != octree::Node::gray) continue;
+            child = {octree::Node::split, description};
+            if (pruner.unchanged()) continue;
             const std::size_t begin = to.size();
-            workspace.pruner.prune(words, i, to);
-            if (last) {
-                const octree::Color color = workspace.arrangement.resolve(
-                    program_, {to.data() + begin, to.size() - begin}, parent.child(i));
-                workspace.resolved += is_decided(color);
-                child.node = octree::leaf_of(color);
-                to.resize(begin);
-            } else {
-                child = {octree::Node::split,
-                         {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(to.size() - begin),
-                          buffer}};
-            }
+            pruner.prune(words, i, to);
+            child.description = {static_cast<std::uint32_t>(begin),
+                                 static_cast<std::uint32_t>(to.size() - begin), buffer};
         }
     }
 
   private:
+    static void put(std::span<const std::uint32_t> words, csg::Scratch<std::uint32_t>& buffer) {
+        buffer.clear();
+        buffer.end_at(std::copy(words.begin(), words.end(), buffer.room(words.size())));
+    }
+
+    static void give_colors(csg::OctantColors colors, octree::Children<Description>& children) {
+        for (std::size_t i = 0; i < 8; ++i) children[i].node = octree::leaf_of(colors[static_cast<int>(i)]);
+    }
+
+    bool resolves() const { return options_.last_level == CsgDescentOptions::LastLevel::resolve; }
+
+    /// Both of the last two levels.
+    void color_brick(const octree::Cell& parent, std::span<const std::uint32_t> words, Workspace& workspace,
+                     octree::Children<Description>& children) const {
+        const csg::BrickSeen& seen = workspace.brick.evaluate(program_, words, parent);
+        const csg::Layers gray = seen.gray();
+        csg::Layers open;
+        if (resolves())
+            open = without(gray, cells_with_corner(seen.corners.out) & cells_with_corner(seen.corners.in));
+        for (unsigned outer = 0; outer < 8; ++outer) {
+            csg::OctantColors colors{octant_of(seen.cells.out, outer), octant_of(seen.cells.in, outer)};
+            for (unsigned inner = octant_of(open, outer); inner != 0; inner &= inner - 1) {
+                const int octant = std::countr_zero(inner);
+                workspace.brick.prune(words, csg::BrickCell::of(outer, static_cast<unsigned>(octant)),
+                                      workspace.cell_words);
+                colors.set(octant,
+                           look_again(parent.child(static_cast<int>(outer)).child(octant), workspace));
+            }
+            children[outer].node = colors.white == 0xFF   ? octree::Node::white
+                                   : colors.black == 0xFF ? octree::Node::black
+                                                          : octree::Node::split;
+            children[outer].description = Description::of(colors);
+        }
+    }
+
+    /// Of a tree with one level: the octants of the universe.
+    csg::OctantColors looked_at_again(const octree::Cell& parent, std::span<const std::uint32_t> words,
+                                      Workspace& workspace, const csg::Seen& seen) const {
+        csg::OctantColors colors = seen.octants;
+        if (!resolves()) return colors;
+        unsigned open = colors.gray() & ~octants_on_both_sides(seen.points);
+        for (; open != 0; open &= open - 1) {
+            const int octant = std::countr_zero(open);
+            workspace.cell_words.clear();
+            workspace.pruner.prune(words, octant, workspace.cell_words);
+            colors.set(octant, look_again(parent.child(octant), workspace));
+        }
+        return colors;
+    }
+
+    octree::Color look_again(const octree::Cell& cell, Workspace& workspace) const {
+        const csg::Scratch<std::uint32_t>& words = workspace.cell_words;
+        const octree::Color color = workspace.second_look.color(program_, {words.data(), words.size()}, cell);
+        workspace.resolved += is_decided(color);
+        return color;
+    }
+
     const csg::Program& program_;
     std::span<const std::uint32_t> words_;
     CsgDescentOptions options_;

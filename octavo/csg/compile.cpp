@@ -1,335 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <string>
-#include <tuple>
 #include <utility>
+#include <variant>
 
-#include <octavo/csg/program.hpp>
+#include <octavo/csg/compile_leaf.hpp>
 
 namespace octavo::csg {
 namespace {
-
-using Matrix = std::array<std::array<long double, 3>, 3>;
-
-/// The inverse of the linear part, in long double: its rounding (2^-64 times the condition) stays below that of
-/// the doubles it ends in for every map that is_singular lets pass.
-Matrix inverse(const Affine& map) {
-    const auto& m = map.m;
-    const auto minor = [&](std::size_t r, std::size_t c) {
-        const std::size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-        return static_cast<long double>(m[r1][c1]) * m[r2][c2] -
-               static_cast<long double>(m[r1][c2]) * m[r2][c1];
-    };
-    long double determinant = 0;
-    for (std::size_t c = 0; c < 3; ++c) determinant += m[0][c] * minor(0, c);
-    Matrix result;
-    for (std::size_t r = 0; r < 3; ++r)
-        for (std::size_t c = 0; c < 3; ++c) result[r][c] = minor(c, r) / determinant;
-    return result;
-}
-
-Vec3 column(const Affine& map, std::size_t c) { return {map.m[0][c], map.m[1][c], map.m[2][c]}; }
-
-/// Whether each axis goes to an axis, so that a box stays a box.
-bool keeps_axes(const Affine& map) {
-    for (std::size_t r = 0; r < 3; ++r) {
-        int entries = 0;
-        for (std::size_t c = 0; c < 3; ++c) entries += map.m[r][c] != 0;
-        if (entries != 1) return false;
-    }
-    return true;
-}
-
-/// The edges of a convex mesh, to find its farthest vertex in a direction by walking uphill.
-class Neighbours {
-  public:
-    explicit Neighbours(const mesh::Mesh& mesh)
-        : begin_(mesh.vertices.size() + 1), to_(3 * mesh.triangles.size()) {
-        for (const mesh::Triangle& t : mesh.triangles)
-            for (const mesh::VertexIndex v : t) ++begin_[v + 1];
-        for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-        for (const mesh::Triangle& t : mesh.triangles)
-            for (std::size_t i = 0; i < 3; ++i) to_[next[t[i]]++] = t[(i + 1) % 3];
-    }
-
-    mesh::VertexIndex farthest(const std::vector<Vec3>& points, Vec3 direction,
-                               mesh::VertexIndex start) const {
-        mesh::VertexIndex best = start;
-        for (bool moved = true; moved;) {
-            moved = false;
-            const mesh::VertexIndex here = best;
-            for (std::uint32_t i = begin_[here]; i < begin_[here + 1]; ++i)
-                if (dot(direction, points[to_[i]]) > dot(direction, points[best]))
-                    best = to_[i], moved = true;
-        }
-        return best;
-    }
-
-  private:
-    std::vector<std::uint32_t> begin_, to_;
-};
-
-/// Turns the leaves of a normal form into leaves of a program, one at a time.
-class LeafCompiler {
-  public:
-    LeafCompiler(Program& program) : program_(program) {}
-
-    /// What a leaf is on the lattice: a leaf of the program, or a constant.
-    struct Compiled {
-        std::optional<std::uint32_t> leaf;
-        bool constant = false;
-    };
-
-    Result<Compiled> compile(const PlacedPrimitive& placed) {
-        if (is_singular(placed.place)) return Compiled{};
-        return std::visit([&](const auto& primitive) { return put(primitive, placed.place); },
-                          placed.primitive);
-    }
-
-  private:
-    Vec3 to_lattice(Vec3 world) const {
-        const exact::Lattice& lattice = program_.lattice;
-        Vec3 p;
-        for (int axis = 0; axis < 3; ++axis)
-            p[axis] = world[axis] / lattice.unit() -
-                      static_cast<double>(lattice.origin()[static_cast<std::size_t>(axis)]);
-        return p;
-    }
-
-    static std::int32_t clamped(double value) {
-        return static_cast<std::int32_t>(std::clamp(value, 0.0, static_cast<double>(exact::universe_side)));
-    }
-
-    /// A leaf whose box holds all lattice points that the world box can reach, with a unit to spare for what
-    /// snapping moves. Empty when that misses the universe.
-    std::optional<Leaf> leaf_within(LeafKind kind, const Box3& world) const {
-        Leaf leaf;
-        leaf.kind = kind;
-        const Vec3 low = to_lattice(world.low), high = to_lattice(world.high);
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            leaf.low[a] = clamped(std::floor(low[axis]) - 1);
-            leaf.high[a] = clamped(std::ceil(high[axis]) + 1);
-            if (leaf.low[a] >= leaf.high[a]) return {};
-        }
-        return leaf;
-    }
-
-    Compiled add(const Leaf& leaf) {
-        program_.leaves.push_back(leaf);
-        return {static_cast<std::uint32_t>(program_.leaves.size() - 1), false};
-    }
-
-    Result<Compiled> put(const Everything&, const Affine&) { return Compiled{{}, true}; }
-
-    Result<Compiled> put(const Cuboid& cuboid, const Affine& place) {
-        const Vec3 low = to_lattice(place(cuboid.low)), high = to_lattice(place(cuboid.high));
-        if (keeps_axes(place)) {
-            Leaf leaf;
-            leaf.kind = LeafKind::box;
-            for (int axis = 0; axis < 3; ++axis) {
-                const auto a = static_cast<std::size_t>(axis);
-                leaf.low[a] = clamped(std::nearbyint(std::min(low[axis], high[axis])));
-                leaf.high[a] = clamped(std::nearbyint(std::max(low[axis], high[axis])));
-                if (leaf.low[a] >= leaf.high[a]) return Compiled{};
-            }
-            return add(leaf);
-        }
-        begin_convex();
-        const bool mirrors = place.determinant() < 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            Vec3 normal = cross(column(place, (axis + 1) % 3), column(place, (axis + 2) % 3));
-            if (mirrors) normal = -normal;
-            add_plane(normal, low);
-            add_plane(-normal, high);
-        }
-        return end_convex(bounds(cuboid, place), place(0.5 * (cuboid.low + cuboid.high)));
-    }
-
-    Result<Compiled> put(const HalfSpace& half_space, const Affine& place) {
-        // A point on the plane, and the normal by the inverse transpose.
-        const double square = dot(half_space.normal, half_space.normal);
-        const Vec3 through = place((half_space.offset / square) * half_space.normal);
-        const Matrix inverted = inverse(place);
-        Vec3 normal;
-        for (std::size_t c = 0; c < 3; ++c) {
-            long double sum = 0;
-            for (std::size_t r = 0; r < 3; ++r)
-                sum += inverted[r][c] * half_space.normal[static_cast<int>(r)];
-            normal[static_cast<int>(c)] = static_cast<double>(-sum);
-        }
-        begin_convex();
-        add_plane(normal, to_lattice(through));
-        constexpr double infinity = Box3::infinity;
-        return end_convex({{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}}, through);
-    }
-
-    Result<Compiled> put(const Ball& ball, const Affine& place) {
-        begin_convex();
-        SecondOrderCone cone = local_frame(place, {}, 1 / static_cast<long double>(ball.radius), 3);
-        cone.row[3][3] = 1;
-        add_cone(cone);
-        return end_convex(bounds(ball, place), place({}));
-    }
-
-    Result<Compiled> put(const Frustum& frustum, const Affine& place) {
-        begin_convex();
-        const long double largest = std::max(frustum.bottom, frustum.top);
-        const Vec3 middle{0, 0, 0.5 * (frustum.low + frustum.high)};
-        SecondOrderCone cone = local_frame(place, middle, 1 / largest, 3);
-        // The third row, along the axis, becomes the radius there.
-        const long double change = (static_cast<long double>(frustum.top) - frustum.bottom) /
-                                   (static_cast<long double>(frustum.high) - frustum.low);
-        for (std::size_t c = 0; c < 4; ++c)
-            cone.row[3][c] = static_cast<double>(change * static_cast<long double>(cone.row[2][c]));
-        cone.row[3][3] +=
-            static_cast<double>(0.5L * (static_cast<long double>(frustum.top) + frustum.bottom) / largest);
-        cone.row[2] = {};
-        add_cone(cone);
-        Vec3 normal = cross(column(place, 0), column(place, 1));
-        if (place.determinant() < 0) normal = -normal;
-        add_plane(normal, to_lattice(place({0, 0, frustum.low})));
-        add_plane(-normal, to_lattice(place({0, 0, frustum.high})));
-        return end_convex(bounds(frustum, place), place(middle));
-    }
-
-    Result<Compiled> put(const Torus& torus, const Affine& place) {
-        std::optional<Leaf> leaf = leaf_within(LeafKind::torus, bounds(torus, place));
-        if (!leaf) return Compiled{};
-        const SecondOrderCone frame = local_frame(place, {}, 1, 3);
-        LatticeTorus on_lattice;
-        for (std::size_t r = 0; r < 3; ++r) on_lattice.row[r] = frame.row[r];
-        on_lattice.origin = frame.origin;
-        on_lattice.major = torus.major;
-        on_lattice.minor = torus.minor;
-        on_lattice.finish();
-        leaf->first = static_cast<std::uint32_t>(program_.tori.size());
-        program_.tori.push_back(on_lattice);
-        return add(*leaf);
-    }
-
-    Result<Compiled> put(const Polyhedron& polyhedron, const Affine& place) {
-        if (polyhedron.convexity == Convexity::convex) return put_convex(polyhedron, place);
-        // One mesh in one place is one leaf, however often it occurs: its occurrences then meet without a trace.
-        const auto [known, fresh] = meshes_.try_emplace({polyhedron.mesh.get(), place.m});
-        if (!fresh) return known->second;
-        Result<Compiled> compiled = put_mesh(polyhedron, place);
-        if (compiled) known->second = *compiled;
-        return compiled;
-    }
-
-    Result<Compiled> put_mesh(const Polyhedron& polyhedron, const Affine& place) {
-        std::optional<Leaf> leaf = leaf_within(LeafKind::polyhedron, bounds(polyhedron, place));
-        if (!leaf) return Compiled{};
-        Result<LatticePolyhedron> snapped = snap_polyhedron(*polyhedron.mesh, place, program_.lattice);
-        if (!snapped) return snapped.error();
-        if (snapped->triangles.empty()) return Compiled{};
-        leaf->first = static_cast<std::uint32_t>(program_.polyhedra.size());
-        program_.polyhedra.push_back(std::move(*snapped));
-        return add(*leaf);
-    }
-
-    /// The half spaces of the facets; those in one plane become one.
-    Result<Compiled> put_convex(const Polyhedron& polyhedron, const Affine& place) {
-        begin_convex();
-        const mesh::Mesh& mesh = *polyhedron.mesh;
-        const double turn = place.determinant() < 0 ? -1 : 1;
-        std::vector<Vec3> points;
-        points.reserve(mesh.vertices.size());
-        for (const Vec3& vertex : mesh.vertices) points.push_back(place(vertex));
-        const Neighbours neighbours(mesh);
-        for (const mesh::Triangle& triangle : mesh.triangles) {
-            const Vec3 a = points[triangle[0]], b = points[triangle[1]], c = points[triangle[2]];
-            const Vec3 inward = -turn * cross(b - a, c - a);
-            if (inward == Vec3{}) continue;
-            // The plane is moved out to the farthest vertex: the normal of a sliver may point anywhere near its
-            // true direction, and a plane that leaves all vertices inside cannot cut anything off.
-            add_plane(inward, to_lattice(points[neighbours.farthest(points, -inward, triangle[0])]));
-        }
-        merge_planes();
-        Vec3 mean;
-        for (const Vec3& point : points) mean = mean + (1 / static_cast<double>(points.size())) * point;
-        return end_convex(bounds(polyhedron, place), mean);
-    }
-
-    /// Rows that take lattice differences to `origin` to the primitive's own frame about `middle`, scaled.
-    SecondOrderCone local_frame(const Affine& place, Vec3 middle, long double scale, std::size_t rows) const {
-        SecondOrderCone cone;
-        const Matrix inverted = inverse(place);
-        const Vec3 centre = to_lattice(place(middle));
-        const long double factor = scale * program_.lattice.unit();
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            cone.origin[axis] = std::nearbyint(centre[static_cast<int>(axis)]);
-        for (std::size_t r = 0; r < rows; ++r) {
-            long double shift = 0;
-            for (std::size_t c = 0; c < 3; ++c) {
-                cone.row[r][c] = static_cast<double>(factor * inverted[r][c]);
-                shift -= factor * inverted[r][c] *
-                         (static_cast<long double>(centre[static_cast<int>(c)]) - cone.origin[c]);
-            }
-            cone.row[r][3] = static_cast<double>(shift);
-        }
-        return cone;
-    }
-
-    void begin_convex() {
-        first_constraint_ = program_.constraints.size();
-        first_plane_ = program_.planes.size();
-        empty_ = false;
-    }
-    void add_plane(Vec3 inward, Vec3 through) {
-        const SnappedPlane snapped = snap_plane(inward, through);
-        if (!snapped.plane) {
-            empty_ |= !snapped.whole;
-            return;
-        }
-        program_.constraints.push_back(static_cast<std::uint32_t>(program_.planes.size()));
-        program_.planes.push_back(*snapped.plane);
-    }
-    void add_cone(SecondOrderCone& cone) {
-        cone.finish();
-        program_.constraints.push_back(static_cast<std::uint32_t>(program_.cones.size()) |
-                                       ConstraintId::cone_bit);
-        program_.cones.push_back(cone);
-    }
-    /// Equal planes of the present body, kept once.
-    void merge_planes() {
-        auto begin = program_.planes.begin() + static_cast<std::ptrdiff_t>(first_plane_);
-        const auto key = [](const LatticePlane& p) { return std::tie(p.normal, p.offset); };
-        std::sort(begin, program_.planes.end(),
-                  [&](const LatticePlane& a, const LatticePlane& b) { return key(a) < key(b); });
-        program_.planes.erase(std::unique(begin, program_.planes.end()), program_.planes.end());
-        program_.constraints.resize(first_constraint_);
-        for (std::size_t i = first_plane_; i < program_.planes.size(); ++i)
-            program_.constraints.push_back(static_cast<std::uint32_t>(i));
-    }
-    Compiled end_convex(const Box3& world, Vec3 inside) {
-        const std::optional<Leaf> leaf = leaf_within(LeafKind::convex, world);
-        const std::size_t count = program_.constraints.size() - first_constraint_;
-        if (empty_ || !leaf) {
-            program_.constraints.resize(first_constraint_);
-            program_.planes.resize(first_plane_);
-            return {};
-        }
-        if (count == 0) return {{}, true};
-        Leaf convex = *leaf;
-        convex.first = static_cast<std::uint32_t>(first_constraint_);
-        convex.count = static_cast<std::uint32_t>(count);
-        const Vec3 witness = to_lattice(inside);
-        for (int axis = 0; axis < 3; ++axis)
-            convex.witness[static_cast<std::size_t>(axis)] = clamped(std::floor(witness[axis]));
-        return add(convex);
-    }
-
-    Program& program_;
-    std::map<std::pair<const mesh::Mesh*, std::array<std::array<double, 4>, 3>>, Compiled> meshes_;
-    std::size_t first_constraint_ = 0, first_plane_ = 0;
-    bool empty_ = false;
-};
 
 /// How far the meshes of a form reach, which must stay within LatticePolyhedron::reach.
 Box3 polyhedra_bounds(const NormalForm& form) {
@@ -372,7 +51,7 @@ Result<exact::Lattice> fit_lattice(const Box3& content, const Box3& polyhedra) {
 /// Replaces the leaves of a normal form by words, dropping those that became constant on the lattice.
 class WordWriter {
   public:
-    WordWriter(Program& program, const NormalForm& form, std::vector<LeafCompiler::Compiled> leaves)
+    WordWriter(Program& program, const NormalForm& form, std::vector<CompiledLeaf> leaves)
         : program_(program), form_(form), leaves_(std::move(leaves)) {}
 
     /// One pass backwards: the operands of an operation are complete when it is reached, so that constants and
@@ -403,7 +82,7 @@ class WordWriter {
     };
 
     void write_leaf(const NormalToken& token) {
-        const LeafCompiler::Compiled& compiled = leaves_[token.leaf];
+        const CompiledLeaf& compiled = leaves_[token.leaf];
         const std::size_t begin = program_.words.size();
         if (!compiled.leaf) {
             operands_.push_back({State::constant, compiled.constant != token.complemented, 1, begin});
@@ -455,9 +134,27 @@ class WordWriter {
 
     Program& program_;
     const NormalForm& form_;
-    std::vector<LeafCompiler::Compiled> leaves_;
+    std::vector<CompiledLeaf> leaves_;
     std::vector<Operand> operands_;
 };
+
+/// Room for what the leaves become at most: growing in steps would touch, and let the system clear, twice the memory.
+void reserve(const NormalForm& form, Program& program) {
+    std::size_t planes = 0, cones = 0;
+    for (const PlacedPrimitive& leaf : form.leaves) {
+        const Primitive& primitive = leaf.primitive;
+        if (std::holds_alternative<Cuboid>(primitive)) planes += 6;
+        if (std::holds_alternative<HalfSpace>(primitive)) planes += 1;
+        if (std::holds_alternative<Frustum>(primitive)) planes += 2;
+        cones += std::holds_alternative<Frustum>(primitive) || std::holds_alternative<Ball>(primitive);
+    }
+    program.leaves.reserve(form.leaves.size());
+    program.planes.reserve(planes);
+    program.cones.reserve(cones);
+    program.quadrics.reserve(cones);
+    program.constraints.reserve(planes + cones);
+    program.words.reserve(form.tokens.size());
+}
 
 bool is_bounded(const Box3& box) { return octavo::is_finite(box.low) && octavo::is_finite(box.high); }
 
@@ -476,12 +173,13 @@ Result<Program> compile(const Expr& expression, const CompileOptions& options, c
     if (!lattice) return lattice.error();
     program.lattice = *lattice;
 
+    reserve(*form, program);
     LeafCompiler compiler(program);
-    std::vector<LeafCompiler::Compiled> leaves;
+    std::vector<CompiledLeaf> leaves;
     leaves.reserve(form->leaves.size());
     for (const PlacedPrimitive& placed : form->leaves) {
         if (leaves.size() % 4096 == 0 && context.cancelled()) return Context::cancelled_error();
-        Result<LeafCompiler::Compiled> compiled = compiler.compile(placed);
+        Result<CompiledLeaf> compiled = compiler.compile(placed);
         if (!compiled) return compiled.error();
         leaves.push_back(*compiled);
     }
@@ -493,7 +191,8 @@ std::size_t Program::memory_bytes() const {
     std::size_t bytes = words.capacity() * sizeof(std::uint32_t) + leaves.capacity() * sizeof(Leaf) +
                         constraints.capacity() * sizeof(std::uint32_t) +
                         planes.capacity() * sizeof(LatticePlane) +
-                        cones.capacity() * sizeof(SecondOrderCone) + tori.capacity() * sizeof(LatticeTorus);
+                        cones.capacity() * sizeof(SecondOrderCone) + quadrics.capacity() * sizeof(Quadric) +
+                        tori.capacity() * sizeof(LatticeTorus);
     for (const LatticePolyhedron& polyhedron : polyhedra)
         bytes += polyhedron.points.capacity() * sizeof(polyhedron.points[0]) +
                  polyhedron.triangles.capacity() * sizeof(polyhedron.triangles[0]);

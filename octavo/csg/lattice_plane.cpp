@@ -57,7 +57,7 @@ SnappedPlane snap_plane(Vec3 normal, Vec3 through) {
     }
     const int fraction_bits = slanted == 0 ? 0 : offset_fraction_bits;
     const auto steps =
-        static_cast<std::int64_t>(std::nearbyint(static_cast<double>(std::ldexp(offset, fraction_bits))));
+        static_cast<std::int64_t>(std::nearbyint(static_cast<double>(offset * (1 << fraction_bits))));
     plane.offset = steps * (std::int64_t{1} << (LatticePlane::normal_bits - fraction_bits));
     result.plane = plane;
     return result;

@@ -29,14 +29,25 @@ struct LatticeTorus {
     double magnitude = 0;  ///< sum of the absolute entries of the linear part
     double constant = 0;   ///< the same of the last column, plus the radii
 
+    /// The signed distance s at a point given by its differences to the origin.
+    double distance(double dx, double dy, double dz) const {
+        std::array<double, 3> p;
+        for (std::size_t r = 0; r < 3; ++r)
+            p[r] = row[r][0] * dx + row[r][1] * dy + row[r][2] * dz + row[r][3];
+        const double radial = std::sqrt(p[0] * p[0] + p[1] * p[1]) - major;
+        return std::sqrt(radial * radial + p[2] * p[2]) - minor;
+    }
+    /// Bounds its rounding where differences are at most `farthest`.
+    double error(double farthest) const { return 128 * 0x1p-53 * (magnitude * farthest + constant); }
+
     octree::Color color(const octree::Cell& cell) const {
         const double half = 0.5 * cell.side();
-        double distance = half;
+        double farthest = half;
         std::array<double, 3> d;
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             d[a] = (static_cast<double>(cell.low[axis]) + half) - origin[a];
-            distance = std::fmax(distance, std::fabs(d[a]) + half);
+            farthest = std::fmax(farthest, std::fabs(d[a]) + half);
         }
         std::array<double, 3> p;
         for (std::size_t r = 0; r < 3; ++r)
@@ -44,8 +55,7 @@ struct LatticeTorus {
         const double rho = std::sqrt(p[0] * p[0] + p[1] * p[1]);
         const double radial = rho - major;
         const double core = std::sqrt(radial * radial + p[2] * p[2]);
-        const double error = 128 * 0x1p-53 * (magnitude * distance + constant);
-        const double slack = std::fabs(core - minor) - error;
+        const double slack = std::fabs(core - minor) - error(farthest);
         if (slack <= 0) return octree::Color::gray;
 
         double step = reach * half;

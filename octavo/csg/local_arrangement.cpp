@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include <octavo/csg/classify.hpp>
 #include <octavo/csg/convex_overlap.hpp>
 #include <octavo/csg/flat_patch.hpp>
@@ -13,10 +9,6 @@ namespace {
 
 using octree::Color;
 
-constexpr std::uint32_t all = ~std::uint32_t{0};
-// The corners of the cell, the middles of its edges and faces, and its own: 3 × 3 × 3 points, x fastest.
-constexpr std::uint32_t points = (std::uint32_t{1} << 27) - 1;
-
 LatticePlane axis_plane(int axis, std::int32_t at) {
     LatticePlane plane;
     plane.normal[static_cast<std::size_t>(axis)] = std::int64_t{1} << LatticePlane::normal_bits;
@@ -24,22 +16,38 @@ LatticePlane axis_plane(int axis, std::int32_t at) {
     return plane;
 }
 
+Color neutral(std::uint32_t w) {
+    const bool full = word::operation(w) == word::intersection ||
+                      (word::operation(w) == word::symmetric_difference && (w & word::even_bit));
+    return full ? Color::black : Color::white;
+}
+
+Color fold(std::uint32_t w, Color a, Color b) {
+    switch (word::operation(w)) {
+        case word::union_of:
+            return octree::unite(a, b);
+        case word::intersection:
+            return octree::intersect(a, b);
+        default:
+            return octree::symmetric_difference(a, b);
+    }
+}
+
 }  // namespace
 
 octree::Color LocalArrangement::resolve(const Program& program, std::span<const std::uint32_t> words,
-                                        const octree::Cell& cell) {
+                                        const octree::Cell& cell, const Pruner& below) {
     program_ = &program;
+    below_ = &below;
     cell_ = cell;
     nodes_.clear();
     literals_.clear();
     count_ = 0;
     if (!read(words)) return Color::gray;
+    // A convex body that does not keep off the cell, and has a constraint that cuts it.
+    if (nodes_.size() == 1 && literals_.size() > 1) return Color::gray;
 
-    for (std::size_t s = 0; s < count_; ++s) values_[s] = sample(surfaces_[s]);
-    const Trials sampled = evaluate();
-    if ((sampled.white & points) && (sampled.black & points)) return Color::gray;
-
-    values_ = {};
+    sides_.fill(Color::gray);
     black_ = white_ = false;
     combinations_ = 0;
     try_signs(0);
@@ -59,8 +67,7 @@ bool LocalArrangement::read(std::span<const std::uint32_t> words) {
         } else {
             if (word::operation(w) != word::skip) {
                 open_.push_back({static_cast<std::uint32_t>(nodes_.size()),
-                                 static_cast<std::uint32_t>(at + (w & word::size_mask)),
-                                 {}});
+                                 static_cast<std::uint32_t>(at + (w & word::size_mask)), Color::gray});
                 nodes_.push_back({Node::Kind::operation, false, w, 0, 0, 0});
             }
             ++at;
@@ -82,6 +89,11 @@ bool LocalArrangement::read_leaf(std::span<const std::uint32_t> words, std::size
               0,
               static_cast<std::uint32_t>(literals_.size()),
               0};
+    const Pruner::LeafInCell known = below_->leaf_in_cell(at);
+    if (is_decided(known.color)) {  // its complement, if the word says so, is in the colour
+        nodes_.push_back({Node::Kind::constant, known.color == Color::black, 0, 0, 0, 0});
+        return true;
+    }
     bool fits = true;
     switch (leaf.kind) {
         case LeafKind::box:
@@ -89,9 +101,7 @@ bool LocalArrangement::read_leaf(std::span<const std::uint32_t> words, std::size
             break;
         case LeafKind::convex:
             if (!(w & word::payload_bit)) items = program_->constraints_of(leaf);
-            for (const std::uint32_t id : items)
-                fits = fits && (ConstraintId::is_cone(id) ? add_cone(ConstraintId::index(id))
-                                                          : add_plane(program_->planes[id], true));
+            fits = read_convex(items, known.met, node);
             break;
         case LeafKind::torus:
             fits = add_torus(leaf.first);
@@ -116,6 +126,35 @@ bool LocalArrangement::read_box(const Leaf& leaf) {
             if (!add_plane(axis_plane(axis, face), lower)) return false;
         }
     }
+    return true;
+}
+
+bool LocalArrangement::keeps_off(std::span<const std::uint32_t> constraints) const {
+    std::array<LatticePlane, most_constraints> planes;
+    std::array<const SecondOrderCone*, most_constraints> cones;
+    std::size_t plane_count = 0, cone_count = 0;
+    for (const std::uint32_t id : constraints) {
+        if (plane_count + cone_count == most_constraints) break;
+        if (ConstraintId::is_cone(id))
+            cones[cone_count++] = &program_->cones[ConstraintId::index(id)];
+        else
+            planes[plane_count++] = program_->planes[id];
+    }
+    if (plane_count == 1 && cone_count == 0) return false;
+    return overlap(cell_, {planes.data(), plane_count}, {cones.data(), cone_count}) == Overlap::apart;
+}
+
+/// Each constraint meets the cell, or pruning would have removed it; but near an edge of the body all of them together
+/// may not, and a quadric alone is seen only by its tangents before this.
+bool LocalArrangement::read_convex(std::span<const std::uint32_t> constraints, bool met, Node& node) {
+    if (!met && keeps_off(constraints)) {
+        node.kind = Node::Kind::constant;
+        return true;
+    }
+    for (const std::uint32_t id : constraints)
+        if (!(ConstraintId::is_cone(id) ? add_cone(ConstraintId::index(id))
+                                        : add_plane(program_->planes[id], true)))
+            return false;
     return true;
 }
 
@@ -176,97 +215,36 @@ bool LocalArrangement::add_literal(std::size_t surface, bool value) {
 
 // --- Evaluating ----------------------------------------------------------------------------------------------
 
-/// On which side of a surface the 27 points of the cell lie, where that is beyond doubt. A corner strictly on one
-/// side has points of the cell's interior near it on that side as well.
-LocalArrangement::Trials LocalArrangement::sample(const LocalSurface& surface) const {
-    Trials trials;
-    const std::int32_t half = cell_.side() / 2;
-    if (surface.kind == LocalSurface::Kind::plane) {
-        const LatticePlane& plane = surface.plane;
-        std::int64_t z = plane.at(cell_.low.x, cell_.low.y, cell_.low.z);
-        for (std::uint32_t k = 0, bit = 1; k < 3; ++k, z += plane.normal[2] * half) {
-            std::int64_t y = z;
-            for (int j = 0; j < 3; ++j, y += plane.normal[1] * half) {
-                std::int64_t x = y;
-                for (int i = 0; i < 3; ++i, x += plane.normal[0] * half, bit <<= 1) {
-                    if (x > 0) trials.black |= bit;
-                    if (x < 0) trials.white |= bit;
-                }
-            }
-        }
-    } else if (surface.kind == LocalSurface::Kind::cone) {
-        const SecondOrderCone& cone = program_->cones[surface.index];
-        std::array<double, 3> d;
-        double distance = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            d[a] = static_cast<double>(cell_.low[axis]) - cone.origin[a];
-            distance = std::max(distance, std::fabs(d[a]));
-        }
-        const double error = cone.error(distance + 2 * half);
-        std::array<double, 27> excess;
-        for (std::size_t p = 0; p < 27; ++p)
-            excess[p] = cone.excess(d[0] + static_cast<double>(p % 3) * half,
-                                    d[1] + static_cast<double>(p / 3 % 3) * half,
-                                    d[2] + static_cast<double>(p / 9) * half);
-        for (std::size_t p = 0; p < 27; ++p) {
-            trials.black |= static_cast<std::uint32_t>(excess[p] < -error) << p;
-            trials.white |= static_cast<std::uint32_t>(excess[p] > error) << p;
-        }
-    }
-    return trials;
-}
-
-LocalArrangement::Trials LocalArrangement::trials_of(const Node& node) const {
-    if (node.kind == Node::Kind::constant) return node.complemented ? Trials{0, all} : Trials{all, 0};
-    Trials trials{0, all};
+Color LocalArrangement::color_of(const Node& node) const {
+    Color color = Color::black;
+    if (node.kind == Node::Kind::constant) color = Color::white;
     for (std::uint32_t i = 0; i < node.count; ++i) {
         const Literal literal = literals_[node.first + i];
-        const Trials value = values_[literal.surface];
-        trials.white |= literal.value ? value.white : value.black;
-        trials.black &= literal.value ? value.black : value.white;
+        const Color side = sides_[literal.surface];
+        color = octree::intersect(color, literal.value ? side : octree::complement(side));
     }
-    if (node.complemented) std::swap(trials.white, trials.black);
-    return trials;
+    return node.complemented ? octree::complement(color) : color;
 }
 
-LocalArrangement::Trials LocalArrangement::evaluate() {
+Color LocalArrangement::evaluate() {
     open_.clear();
-    Trials result;
-    const auto hand_up = [&](Trials value) {
-        if (open_.empty()) {
-            result = value;
-            return;
-        }
-        Open& around = open_.back();
-        Trials& sum = around.trials;
-        switch (word::operation(around.word)) {
-            case word::union_of:
-                sum = {sum.white & value.white, sum.black | value.black};
-                break;
-            case word::intersection:
-                sum = {sum.white | value.white, sum.black & value.black};
-                break;
-            default: {
-                const std::uint32_t known = (sum.white | sum.black) & (value.white | value.black);
-                const std::uint32_t odd = sum.black ^ value.black;
-                sum = {known & ~odd, known & odd};
-            }
-        }
+    Color result = Color::gray;
+    const auto hand_up = [&](Color color) {
+        if (open_.empty())
+            result = color;
+        else
+            open_.back().color = fold(open_.back().word, open_.back().color, color);
     };
     for (std::uint32_t at = 0; at < nodes_.size(); ++at) {
         const Node& node = nodes_[at];
-        if (node.kind == Node::Kind::operation) {
-            const bool full =
-                word::operation(node.word) == word::intersection || (node.word & word::even_bit);
-            open_.push_back({node.word, node.end, full ? Trials{0, all} : Trials{all, 0}});
-        } else {
-            hand_up(trials_of(node));
-        }
+        if (node.kind == Node::Kind::operation)
+            open_.push_back({node.word, node.end, neutral(node.word)});
+        else
+            hand_up(color_of(node));
         while (!open_.empty() && open_.back().end == at + 1) {
-            const Trials value = open_.back().trials;
+            const Color color = open_.back().color;
             open_.pop_back();
-            hand_up(value);
+            hand_up(color);
         }
     }
     return result;
@@ -276,21 +254,21 @@ LocalArrangement::Trials LocalArrangement::evaluate() {
 
 /// Colours of the regions in which the first `depth` surfaces have the signs chosen so far.
 void LocalArrangement::try_signs(std::size_t depth) {
-    const Trials value = evaluate();
-    if (value.black || value.white) {
-        (value.black ? black_ : white_) = true;
+    const Color color = evaluate();
+    if (is_decided(color)) {
+        (color == Color::black ? black_ : white_) = true;
         return;
     }
     if (depth == count_ || combinations_ >= most_combinations) {
         black_ = white_ = true;  // not known: stay gray
         return;
     }
-    for (const bool inside : {true, false}) {
-        values_[depth] = inside ? Trials{0, all} : Trials{all, 0};
+    for (const Color side : {Color::black, Color::white}) {
+        sides_[depth] = side;
         if (is_possible(depth + 1)) try_signs(depth + 1);
         if (black_ && white_) break;
     }
-    values_[depth] = {};
+    sides_[depth] = Color::gray;
 }
 
 /// False when no point of the cell's interior has these signs.
@@ -301,7 +279,7 @@ bool LocalArrangement::is_possible(std::size_t depth) {
     std::size_t plane_count = 0, cone_count = 0;
     for (std::size_t s = 0; s < depth; ++s) {
         const LocalSurface& surface = surfaces_[s];
-        const bool inside = values_[s].black != 0;
+        const bool inside = sides_[s] == Color::black;
         if (surface.kind == LocalSurface::Kind::plane)
             planes[plane_count++] = inside ? surface.plane : surface.plane.flipped();
         else if (surface.kind == LocalSurface::Kind::cone && inside)

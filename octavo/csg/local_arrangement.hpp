@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <octavo/csg/program.hpp>
+#include <octavo/csg/prune.hpp>
 
 // Looks again at a cell that three-valued logic leaves gray.
 //
@@ -17,15 +17,16 @@
 // one after the other, and a combination counts only when the open half spaces (and the quadrics that the cell is
 // inside of) have a point in common with the cell's interior, which `overlap` decides. When the expression has
 // the same colour for all combinations that count, the cell has that colour: this is the arrangement of the
-// surfaces in the cell, evaluated region by region. Most cells that are rightly gray are known before: 27 points
-// of the cell are evaluated at once, and two of different colours suffice.
+// surfaces in the cell, evaluated region by region.
 //
 // What holds: white and black are right. For flat primitives gray is right too, except where `overlap` is unsure
 // or a limit below is met. Curved surfaces that coincide are recognised; that two *different* quadrics have no
 // common point outside both is not looked for, so gray may remain where they touch.
 // A mesh takes part when all its triangles in the cell lie in one plane: being closed, it is then a half space,
-// or constant. Otherwise it is one variable of its own.
-// Cost: some 100 ns for the points; then at most `most_combinations` calls of `overlap`, typically two to six.
+// or constant. Otherwise it is one variable of its own. A convex body whose interior `overlap` shows to keep off the
+// cell is no variable at all.
+// Cost: at most `most_combinations` calls of `overlap`, typically two to six; second_look.hpp asks only when nothing
+// cheaper tells.
 
 namespace octavo::csg {
 
@@ -42,9 +43,9 @@ struct LocalSurface {
 /// Resolves one cell after the other; keeps its buffers.
 class LocalArrangement {
   public:
-    /// `words` is what pruning left for the cell, not empty.
+    /// `words` is what pruning left for the cell, not empty, and `below` has just evaluated it in the cell's octants.
     octree::Color resolve(const Program& program, std::span<const std::uint32_t> words,
-                          const octree::Cell& cell);
+                          const octree::Cell& cell, const Pruner& below);
 
   private:
     struct Literal {
@@ -59,18 +60,16 @@ class LocalArrangement {
         std::uint32_t end = 0;               // of an operation: one past its last node
         std::uint32_t first = 0, count = 0;  // literals
     };
-    /// Thirty-two trials at once: bits where the value is known to be false, and where true.
-    struct Trials {
-        std::uint32_t white = 0, black = 0;
-    };
     struct Open {
         std::uint32_t word, end;
-        Trials trials;
+        octree::Color color;
     };
 
     bool read(std::span<const std::uint32_t> words);
     bool read_leaf(std::span<const std::uint32_t> words, std::size_t at);
     bool read_box(const Leaf& leaf);
+    bool keeps_off(std::span<const std::uint32_t> constraints) const;
+    bool read_convex(std::span<const std::uint32_t> constraints, bool met, Node& node);
     bool read_polyhedron(const Leaf& leaf, std::span<const std::uint32_t> items, Node& node);
     bool add_plane(const LatticePlane& plane, bool value);
     bool add_cone(std::uint32_t index);
@@ -78,19 +77,20 @@ class LocalArrangement {
     bool add_surface(const LocalSurface& surface);
     bool add_literal(std::size_t surface, bool value);
 
-    Trials evaluate();
-    Trials trials_of(const Node& node) const;
-    Trials sample(const LocalSurface& surface) const;
+    octree::Color evaluate();
+    octree::Color color_of(const Node& node) const;
     void try_signs(std::size_t depth);
     bool is_possible(std::size_t depth);
 
     const Program* program_ = nullptr;
+    const Pruner* below_ = nullptr;
     octree::Cell cell_;
     std::vector<Node> nodes_;
     std::vector<Literal> literals_;
     std::vector<Open> open_;
     std::array<LocalSurface, most_surfaces> surfaces_;
-    std::array<Trials, most_surfaces> values_{};
+    /// By surface: the side that is tried, gray when none is yet.
+    std::array<octree::Color, most_surfaces> sides_{};
     std::size_t count_ = 0;
     bool black_ = false, white_ = false;
     int combinations_ = 0;

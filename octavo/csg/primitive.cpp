@@ -118,13 +118,23 @@ bool is_singular(const Affine& map) {
     // Hadamard's ratio: the volume that the unit cube's image spans, over that of a box with its edges, taken by
     // rows and by columns, so that scaling an axis before or after does not count. A ratio of 2^-46 or less
     // leaves less than the rounding of a few products.
+    const double determinant = std::fabs(map.determinant());
+    // Squares first: six roots a primitive were a tenth of the time that compiling an expression takes.
+    double row_squares = 1, column_squares = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& m = map.m;
+        row_squares *= m[i][0] * m[i][0] + m[i][1] * m[i][1] + m[i][2] * m[i][2];
+        column_squares *= m[0][i] * m[0][i] + m[1][i] * m[1][i] + m[2][i] * m[2][i];
+    }
+    const double least_square = std::min(row_squares, column_squares);
+    if (least_square > 1e-200 && least_square < 1e200 && determinant > 0x1p-45 * std::sqrt(least_square))
+        return false;
     double rows = 1, columns = 1;
     for (std::size_t i = 0; i < 3; ++i) {
         rows *= std::hypot(map.m[i][0], map.m[i][1], map.m[i][2]);
         columns *= std::hypot(map.m[0][i], map.m[1][i], map.m[2][i]);
     }
-    const double least = std::min(rows, columns);
-    return !(std::fabs(map.determinant()) > 0x1p-46 * least);
+    return !(determinant > 0x1p-46 * std::min(rows, columns));
 }
 
 }  // namespace octavo::csg

@@ -12,7 +12,7 @@
 #include <octavo/csg/lattice_polyhedron.hpp>
 #include <octavo/csg/lattice_torus.hpp>
 #include <octavo/csg/normal_form.hpp>
-#include <octavo/csg/second_order_cone.hpp>
+#include <octavo/csg/quadric.hpp>
 
 // An expression on a lattice, ready to be asked about cells.
 //
@@ -79,6 +79,7 @@ struct Program {
     std::vector<std::uint32_t> constraints;
     std::vector<LatticePlane> planes;
     std::vector<SecondOrderCone> cones;
+    std::vector<Quadric> quadrics;  ///< the same, squared
     std::vector<LatticeTorus> tori;
     std::vector<LatticePolyhedron> polyhedra;
 

@@ -16,55 +16,47 @@
 // octant that stays gray only what is undecided there: A ∪ white → A, A ∩ black → A, A ∪ black → black and so
 // on. A list shrinks about eight times a level until cells are smaller than the primitives; then one to three
 // leaves are left (J. Woodwark and K. Quinlan, Reducing the effect of complexity on volume model evaluation,
-// 1982). The short circuits of the source (an operand that decides an operation ends it) apply to eight octants
-// at once: an operand is looked at only when some octant still needs it.
-//
-// Both passes are loops over words in prefix order with a stack of open operations; nothing recurses, and no
-// memory is allocated once the buffers have grown. An operation left with one operand keeps its place as a `skip`
-// word until the next pass, which saves moving what follows.
+// 1982). The walks themselves are in fold_words.hpp.
 
 namespace octavo::csg {
 
 class Pruner {
   public:
-    /// Evaluates `words`, a program restricted to `parent`, in its octants. Colours of nodes are kept for `prune`.
-    OctantColors evaluate(const Program& program, std::span<const std::uint32_t> words,
-                          const octree::Cell& parent);
+    /// Evaluates `words`, a program restricted to `parent`, in its octants and at their points. Colours of nodes are
+    /// kept for `prune`.
+    Seen evaluate(const Program& program, std::span<const std::uint32_t> words, const octree::Cell& parent);
 
     /// Appends to `to` what the words last evaluated leave undecided in this octant, which must be gray.
-    void prune(std::span<const std::uint32_t> words, int octant, std::vector<std::uint32_t>& to);
+    void prune(std::span<const std::uint32_t> words, int octant, Scratch<std::uint32_t>& to);
 
     /// Whether the words last evaluated would be pruned to themselves in every gray octant.
     bool unchanged() const { return unchanged_; }
+
+    /// What the words last evaluated showed of the leaf at a word, in all of the cell: gray unless its octants agree,
+    /// and whether a point of the cell lies strictly inside it. Nothing of leaves that were not looked at.
+    struct LeafInCell {
+        octree::Color color = octree::Color::gray;
+        bool met = false;
+    };
+    LeafInCell leaf_in_cell(std::size_t at) const;
 
     /// Leaves tested so far, counted once for each octant that the leaf's bounding box meets.
     std::uint64_t primitive_tests() const { return remains_.tests; }
 
   private:
-    struct Open {
-        std::uint32_t word;
-        std::uint32_t end;
-        std::uint8_t needed;
+    /// What was seen of a node, by its word.
+    struct Node {
         OctantColors colors;
+        bool met;                         // of a leaf: a point lies strictly inside it
+        std::uint32_t evaluation;         // of a leaf: the last in which it was looked at
+        std::uint32_t matters, windings;  // of a leaf: where its part of `remains_` begins
     };
-    struct Written {
-        std::uint32_t end;    // in the words read
-        std::size_t word;     // in the words written
-        std::uint32_t count;  // operands written
-    };
-
-    OctantColors evaluate_leaf(const Program& program, std::span<const std::uint32_t> words, std::size_t at,
-                               const octree::Cell& parent, std::uint8_t needed);
-    void write_leaf(std::span<const std::uint32_t> words, std::size_t at, int octant,
-                    std::vector<std::uint32_t>& to);
-
     const Program* program_ = nullptr;
-    std::vector<OctantColors> colors_;    // by word
-    std::vector<std::uint32_t> matters_;  // by leaf word: where its bytes begin in `remains_`
-    std::vector<std::uint32_t> windings_;
-    std::vector<Open> open_;
-    std::vector<Written> written_;
+    Scratch<Node> nodes_;
+    std::vector<OpenOperation<Seen>> open_;
+    std::vector<WrittenOperation> written_;
     Remains remains_;
+    std::uint32_t evaluation_ = 0;
     bool unchanged_ = false;
 };
 

@@ -46,6 +46,8 @@
 //
 //     void split(const Cell&, const Description&, const Workspace&);    // a node; what lies in it follows
 //     void leaf(const Cell&, const Restricted<Description>&, const Workspace&);
+//     Node leaves(const Cell& parent, const Children<Description>&, const Workspace&);   // optional: eight
+//                                       // leaves of the last level at once; returns their common colour, or split
 //     void merge(const Cell&, Color);   // the eight octants of the cell, just given, are leaves of one
 //     decided
 //                                       // colour: they and their parent become one leaf
@@ -137,6 +139,14 @@ class DfOutput {
     void leaf(const Cell&, const Restricted<Description>& leaf, const Workspace&) {
         code_.append(leaf.node);
     }
+    /// Eight leaves; returns their colour when they share one, else split.
+    template <class Description, class Workspace>
+    Node leaves(const Cell&, const Children<Description>& leaves, const Workspace&) {
+        std::uint64_t nodes = 0;
+        for (std::size_t i = 0; i < 8; ++i) nodes |= static_cast<std::uint64_t>(leaves[i].node) << (2 * i);
+        code_.append(nodes, 8);
+        return nodes == 0 ? Node::white : nodes == 0x5555 ? Node::black : Node::split;
+    }
     void merge(const Cell&, Color color) {
         code_.truncate(code_.size() - 9);
         code_.append(leaf_of(color));
@@ -213,6 +223,11 @@ class Descent {
     // A share of all work smaller than this is not reported on its own, nor split further. An hour's work still
     // moves its bar every half second.
     static constexpr double least_share = 1.0 / 8192;
+    static constexpr bool takes_all_leaves =
+        requires(Output & output, const Cell& cell, const Children<Description>& children,
+                 const Workspace& workspace) {
+        { output.leaves(cell, children, workspace) } -> std::same_as<Node>;
+    };
 
     /// Visits a cell that is split; returns the colour of all of it when its leaves could be merged, else
     /// split.
@@ -230,12 +245,23 @@ class Descent {
         if (cell.level + 1 == depth_) {
             for (Restricted<Description>& child : children)
                 if (child.node == Node::split) child.node = Node::gray;
+            if constexpr (takes_all_leaves) return leaves(cell, children, workspace, output, share);
         }
         const bool fork = may_fork && problem_.weight(description) > options_.fork_weight;
         const Node merged = fork ? visit_octants_apart(cell, children, workspace, output, share)
                                  : visit_octants<may_fork>(cell, children, workspace, output, share);
         if (merged == Node::white || merged == Node::black) output.merge(cell, color_of(merged));
         return merged;
+    }
+
+    /// Hands over the octants of a cell above the last level in one call, where the output has one for it.
+    Node leaves(const Cell& cell, const Children<Description>& children, const Workspace& workspace,
+                Output& output, double share) {
+        if (share != 0) progress_.add(share);
+        const Node common = output.leaves(cell, children, workspace);
+        if (common != Node::white && common != Node::black) return Node::split;
+        output.merge(cell, color_of(common));
+        return common;
     }
 
     template <bool may_fork>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "random_solids.hpp"
-#include <octavo/csg/prune.hpp>
+#include <octavo/csg/second_look.hpp>
 
 namespace octavo::csg {
 namespace {
@@ -33,11 +33,18 @@ Expr primitive(Color color) {
     }
 }
 
+/// What is left of the words last evaluated in an octant.
+std::vector<std::uint32_t> left_in(Pruner& pruner, const std::vector<std::uint32_t>& words, int octant) {
+    Scratch<std::uint32_t> left;
+    pruner.prune(words, octant, left);
+    return {left.data(), left.data() + left.size()};
+}
+
 Color color_of(const Expr& expression) {
     const Program program = compile_or_die(expression);
     if (program.words.empty()) return program.constant ? Color::black : Color::white;
     Pruner pruner;
-    return pruner.evaluate(program, program.words, octree::Cell::root())[0];
+    return pruner.evaluate(program, program.words, octree::Cell::root()).octants[0];
 }
 
 // The example of figure 3.3 and table 3.2 of the source: (((((A-B)+(C+D))*(~E)*(F+G)))+H)*I.
@@ -65,7 +72,8 @@ TEST(Prune, AnOperandThatDecidesEndsTheOperation) {
     for (int i = 0; i < 1000; ++i) operands.push_back(primitive(Color::gray));
     const Program program = compile_or_die(unite(operands));
     Pruner pruner;
-    EXPECT_EQ(pruner.evaluate(program, program.words, octree::Cell::root()), OctantColors::all_black());
+    EXPECT_EQ(pruner.evaluate(program, program.words, octree::Cell::root()).octants,
+              OctantColors::all_black());
     EXPECT_EQ(pruner.primitive_tests(), 8U);
 }
 
@@ -74,8 +82,8 @@ TEST(Prune, OnlyWhatIsUndecidedIsHandedDown) {
     for (int i = 0; i < 100; ++i) operands.push_back(primitive(Color::white));
     const Program program = compile_or_die(unite(operands));
     Pruner pruner;
-    EXPECT_EQ(pruner.evaluate(program, program.words, octree::Cell::root())[0], Color::gray);
-    std::vector<std::uint32_t> words;
+    EXPECT_EQ(pruner.evaluate(program, program.words, octree::Cell::root()).octants[0], Color::gray);
+    Scratch<std::uint32_t> words;
     pruner.prune(program.words, 0, words);
     // The union is left with one operand: a word that is stepped over, and the leaf.
     ASSERT_EQ(words.size(), 2U);
@@ -105,11 +113,11 @@ TEST(Prune, PrunedProgramsColourEveryOctantLikeTheWholeOne) {
         const Program program = compile_or_die(expression);
         if (program.words.empty()) continue;
         Pruner whole, pruned;
-        std::vector<std::uint32_t> words = program.words, next;
+        std::vector<std::uint32_t> words = program.words;
         octree::Cell cell = octree::Cell::root();
         for (int level = 0; level < 6; ++level) {
-            const OctantColors expected = whole.evaluate(program, program.words, cell);
-            const OctantColors actual = pruned.evaluate(program, words, cell);
+            const OctantColors expected = whole.evaluate(program, program.words, cell).octants;
+            const OctantColors actual = pruned.evaluate(program, words, cell).octants;
             // Convex bodies of several constraints may be seen more sharply on the way down.
             for (int octant = 0; octant < 8; ++octant) {
                 if (is_decided(expected[octant])) {
@@ -119,9 +127,7 @@ TEST(Prune, PrunedProgramsColourEveryOctantLikeTheWholeOne) {
             int octant = random.below(8);
             for (int i = 0; i < 8 && is_decided(actual[octant]); ++i) octant = (octant + 1) % 8;
             if (is_decided(actual[octant])) break;
-            next.clear();
-            pruned.prune(words, octant, next);
-            words = next;
+            words = left_in(pruned, words, octant);
             cell = cell.child(octant);
         }
     }
@@ -224,10 +230,16 @@ TEST(Classify, ConvexPrimitivesAreNeverWrongAndTight) {
         }
         const double margin = 2 * unit * stretch;
         Pruner pruner;
-        std::vector<std::uint32_t> words = program.words, next;
+        SecondLook second_look;
+        std::vector<std::uint32_t> words = program.words;
         octree::Cell cell = octree::Cell::root();
         for (int level = 0; level < 9; ++level) {
-            const OctantColors colors = pruner.evaluate(program, words, cell);
+            const OctantColors quick = pruner.evaluate(program, words, cell).octants;
+            OctantColors colors = quick;
+            for (int octant = 0; octant < 8; ++octant)
+                if (quick[octant] == Color::gray)
+                    colors.set(octant, second_look.color(program, left_in(pruner, words, octant),
+                                                         cell.child(octant)));
             int gray = -1;
             for (int k = 0; k < 8; ++k) {
                 const int octant = (k + round) % 8;
@@ -256,9 +268,7 @@ TEST(Classify, ConvexPrimitivesAreNeverWrongAndTight) {
                 }
             }
             if (gray < 0) break;
-            next.clear();
-            pruner.prune(words, gray, next);
-            words = next;
+            words = left_in(pruner, words, gray);
             cell = cell.child(gray);
         }
     }
