@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <random>
 #include <string>
 
@@ -18,7 +19,9 @@
 // Inside and distance on one thread: Octavo against Embree and CGAL, on the same points in the same process. Prints
 // CPU nanoseconds a point, build times and memory as CSV, and how many answers differ from Octavo's.
 //
-//     octavo_query_peers MODEL|sphere:LEVEL [uniform|near] [POINTS=1000000] [RUNS=5]
+//     octavo_query_peers MODEL|sphere:LEVEL [uniform|near] [POINTS=1000000] [RUNS=5] [FOLDER]
+//
+// FOLDER gets the arrays and Octavo's answers, for query.py, which adds peers from PyPI.
 //
 // Points: uniform in the bounding box, or near the surface (uniform by area, moved along the normal by up to 1 % of
 // the diagonal either way). `sphere:8` makes a concave star-shaped solid of 20 · 4^8 = 1.3 million triangles.
@@ -160,9 +163,27 @@ void print(const std::vector<QueryAnswer>& answers) {
     }
 }
 
+template <class T>
+void dump(const std::string& path, const std::vector<T>& array) {
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(array.data()),
+               static_cast<std::streamsize>(array.size() * sizeof(T)));
+}
+
+void dump_job(const std::string& folder, const QueryJob& job, const std::vector<QueryAnswer>& answers) {
+    dump(folder + "/vertices.f32", job.vertices);
+    dump(folder + "/triangles.u32", job.triangles);
+    dump(folder + "/points.f32", job.points);
+    for (const QueryAnswer& answer : answers) {
+        if (answer.system == "Octavo inside") dump(folder + "/inside.i8", answer.inside);
+        if (answer.system == "Octavo signed distance") dump(folder + "/distance.f64", answer.distance);
+    }
+}
+
 int compare(int argc, char** argv) {
     if (argc < 2) {
-        std::fprintf(stderr, "usage: %s MODEL|sphere:LEVEL [uniform|near] [POINTS] [RUNS]\n", argv[0]);
+        std::fprintf(stderr, "usage: %s MODEL|sphere:LEVEL [uniform|near] [POINTS] [RUNS] [FOLDER]\n",
+                     argv[0]);
         return 2;
     }
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
@@ -187,6 +208,7 @@ int compare(int argc, char** argv) {
     add(run_cgal_queries(job));
 #endif
     print(answers);
+    if (argc > 5) dump_job(argv[5], job, answers);
     return 0;
 }
 

@@ -159,7 +159,7 @@ class Builder {
         // Powers of two on the least gain. Coarse levels have few planes that all later levels inherit: with these
         // they come within 1 % of the convex hulls of the cells. Below level 5 planes are many and each is worth
         // little: a quarter fewer of them at level 7 costs 0.1 % of volume.
-        constexpr std::array<double, 9> finer{8, 7, 3.5, 2, 0, 0, 0.3, -2.4, -4};
+        constexpr std::array<double, 9> finer{8, 7, 3.5, 2, 0, 0, 0, -2.4, -4};
         const std::size_t index = std::min(static_cast<std::size_t>(level), finer.size() - 1);
         selection.least_gain = options_.least_gain * std::exp2(-finer[index]);
         // The thesis has 1 % of the triangles at the root and half as many in each node of the next level; a fifth of

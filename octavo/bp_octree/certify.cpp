@@ -46,8 +46,9 @@ class Certificate {
         if (triangles.empty()) return wrong(node, "has no colour although the surface does not meet it");
         const CellBox box = tree_.frame.box(cell);
         content_.gather(tree_.mesh, box, triangles, inside);
+        // A plane at the far corner of its cell cuts nothing of it, though rounded supports may lie beyond.
         for (const BoundingPlane& plane : tree_.planes_of(node))
-            if (!content_.points().empty() &&
+            if (plane.offset < largest_offset && !content_.points().empty() &&
                 content_.points().support(direction_of(plane.direction)) > plane.reach())
                 return wrong(node, "has a plane that cuts the solid");
         if (kind == Node::gray) {

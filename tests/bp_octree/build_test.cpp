@@ -9,6 +9,7 @@
 #include "models.hpp"
 #include <octavo/bp_octree/build.hpp>
 #include <octavo/bp_octree/cell_split.hpp>
+#include <octavo/bp_octree/certify.hpp>
 
 namespace octavo::bp_octree {
 namespace {
@@ -226,6 +227,28 @@ TEST(Build, DegenerateInputIsEnveloped) {
         EXPECT_EQ(tree.deepest(), 6);
         expect_surface_contained(tree);
     }
+}
+
+TEST(Build, PlanesByKMedoidsAreFewerThanTheirLimitAndCertified) {
+    const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(5));
+    BuildOptions options;
+    options.planes = PlaneChoice::k_medoids;
+    options.k_medoids.part = 0.02;
+    auto tree = build(mesh, options);
+    ASSERT_TRUE(tree.has_value());
+    const Status certified = certify(*tree);
+    EXPECT_TRUE(certified.has_value()) << certified.error().sentence;
+    // 2 % of the triangles at the root, half as many a node on each level below.
+    for (NodeIndex node = 0; node < tree->nodes.size(); ++node) {
+        const auto level = std::upper_bound(tree->level_begin.begin(), tree->level_begin.end(), node) -
+                           tree->level_begin.begin() - 1;
+        const double most =
+            0.02 * static_cast<double>(mesh.triangles.size()) / std::ldexp(1.0, static_cast<int>(level));
+        EXPECT_LE(static_cast<double>(tree->planes_of(node).size()), std::max(1.0, most));
+    }
+    EXPECT_GT(tree->planes_of(0).size(), 100U);
+    for (std::size_t level = 1; level < tree->levels.size(); ++level)
+        EXPECT_LT(tree->levels[level].volume, tree->levels[level - 1].volume);
 }
 
 TEST(Build, RefusesAnEmptyMeshAndStopsWhenCancelled) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -90,6 +91,12 @@ std::vector<Vec3> trying_points(const mesh::LatticeMesh& mesh, std::size_t rando
     return points;
 }
 
+/// So many points, or more when OCTAVO_TEST_EFFORT says so.
+std::size_t scaled(std::size_t points) {
+    const char* effort = std::getenv("OCTAVO_TEST_EFFORT");
+    return points * static_cast<std::size_t>(effort ? std::max(1, std::atoi(effort)) : 1);
+}
+
 void expect_exact(const mesh::LatticeMesh& mesh, std::span<const Vec3> points) {
     ClosestOptions options;
     options.sign = ClosestOptions::Sign::none;
@@ -118,7 +125,7 @@ void expect_exact(const mesh::LatticeMesh& mesh, std::span<const Vec3> points) {
 
 TEST(Closest, IsTheBruteForceAnswerInRationalsOnACurvedSolid) {
     const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(3));
-    expect_exact(mesh, trying_points(mesh, 300));
+    expect_exact(mesh, trying_points(mesh, scaled(200)));
 }
 
 TEST(Closest, IsTheBruteForceAnswerInRationalsOnBoxesFullOfTies) {
@@ -158,7 +165,7 @@ TEST(Closest, AgreesWithTestingEveryTriangleOnALargerSolid) {
     options.sign = ClosestOptions::Sign::none;
     auto query = ClosestQuery::build(mesh, options);
     ASSERT_TRUE(query.has_value());
-    const std::vector<Vec3> points = trying_points(mesh, 700);
+    const std::vector<Vec3> points = trying_points(mesh, scaled(400));
     const std::vector<Closest> answers = (*query)(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const FixedPoint q = FixedPoint::of(points[i], mesh.lattice);
