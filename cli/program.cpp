@@ -55,6 +55,7 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     add_stats(*this);
     add_contains(*this);
     add_distance(*this);
+    add_hexmesh(*this);
 
     add_completion(*this);
     add_man(*this);

@@ -64,7 +64,7 @@ class Polyhedra {
           faces_(mesh.nodes.size()) {}
 
     mesh::PolyhedralMesh run() {
-        for (NodeIndex node = 0; node < mesh_.nodes.size(); ++node)
+        for (NodeIndex node = 0; node < mesh_.node_count(); ++node)
             result_.points.push_back(mesh_.position(node));
         for (const mesh::EdgeHangingNode& node : mesh_.edge_hanging)
             edges_.add(node.masters[0], node.masters[1], node.node);

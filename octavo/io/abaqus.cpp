@@ -10,6 +10,8 @@
 
 #include <octavo/io/abaqus.hpp>
 #include <octavo/io/output.hpp>
+#include <octavo/mesh/hex_sides.hpp>
+#include <octavo/mesh/materials.hpp>
 
 namespace octavo::io {
 namespace {
@@ -32,16 +34,8 @@ void append_short(Output& output, double value) {
     }
 }
 
-std::string set_name(const mesh::SolidSet& set, std::span<const std::string> names) {
-    std::vector<mesh::SolidIndex> solids = set.inside;
-    solids.insert(solids.end(), set.boundary.begin(), set.boundary.end());
-    std::sort(solids.begin(), solids.end());
-    std::string name;
-    for (const mesh::SolidIndex solid : solids) {
-        if (!name.empty()) name += "_AND_";
-        name += solid < names.size() ? names[solid] : "SOLID_" + std::to_string(solid);
-    }
-    if (name.empty()) return "OUTSIDE";
+/// A name as Abaqus takes it: upper case, letters, digits and underscores, a letter first, at most 80 characters.
+std::string label(std::string name) {
     for (char& c : name) {
         const auto letter = static_cast<unsigned char>(c);
         c = std::isalnum(letter) ? static_cast<char>(std::toupper(letter)) : '_';
@@ -55,7 +49,7 @@ void append_count(Output& output, std::uint64_t value) { output.append_number(va
 
 void write_nodes(Output& output, const mesh::HexMesh& mesh) {
     output.append("*NODE, NSET=ALL\n");
-    for (mesh::NodeIndex node = 0; node < mesh.nodes.size(); ++node) {
+    for (mesh::NodeIndex node = 0; node < mesh.node_count(); ++node) {
         const Vec3 p = mesh.position(node);
         append_count(output, node + std::uint64_t{1});
         for (int axis = 0; axis < 3; ++axis) {
@@ -66,22 +60,60 @@ void write_nodes(Output& output, const mesh::HexMesh& mesh) {
     }
 }
 
-void write_elements(Output& output, const mesh::HexMesh& mesh, std::span<const std::string> names) {
+void write_elements(Output& output, const mesh::HexMesh& mesh, const mesh::Materials& materials,
+                    std::span<const std::string> names) {
     constexpr std::array<std::size_t, 8> order{0, 1, 3, 2, 4, 5, 7, 6};
-    std::map<std::string, std::vector<bool>> groups;  // one name may stand for several sets
-    for (std::size_t set = 0; set < mesh.sets.size(); ++set)
-        groups.try_emplace(set_name(mesh.sets[set], names), mesh.sets.size()).first->second[set] = true;
-    for (const auto& [name, sets] : groups) {
-        bool begun = false;
-        for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
-            if (!sets[mesh.set_of_cell[cell]]) continue;
-            if (!begun) output.append("*ELEMENT, TYPE=C3D8, ELSET=" + name + "\n");
-            begun = true;
-            append_count(output, cell + 1);
+    for (std::uint32_t material = 0; material < materials.solids.size(); ++material) {
+        const std::string name = label(mesh::material_name(materials.solids[material], names, "_and_"));
+        output.append("*ELEMENT, TYPE=C3D8, ELSET=" + name + "\n");
+        for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell) {
+            if (materials.of(mesh, cell) != material) continue;
+            append_count(output, cell + std::uint64_t{1});
             for (const std::size_t corner : order) {
                 output.append(',');
                 append_count(output, mesh.corners[cell][corner] + std::uint64_t{1});
             }
+            output.append('\n');
+        }
+    }
+}
+
+/// The nodes at the ends of the mesh along each axis that do not hang: what supports and loads are put on most.
+void write_end_sets(Output& output, const mesh::HexMesh& mesh) {
+    std::vector<bool> hangs(mesh.node_count(), false);
+    for (const mesh::EdgeHangingNode& hanging : mesh.edge_hanging) hangs[hanging.node] = true;
+    for (const mesh::FaceHangingNode& hanging : mesh.face_hanging) hangs[hanging.node] = true;
+    Box3 bounds;
+    for (mesh::NodeIndex node = 0; node < mesh.node_count(); ++node) bounds.add(mesh.position(node));
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool high : {false, true}) {
+            output.append("*NSET, NSET=" + std::string(1, "XYZ"[axis]) + (high ? "MAX\n" : "MIN\n"));
+            const double end = high ? bounds.high[axis] : bounds.low[axis];
+            for (mesh::NodeIndex node = 0; node < mesh.node_count(); ++node)
+                if (!hangs[node] && mesh.position(node)[axis] == end)
+                    append_count(output, node + std::uint64_t{1}), output.append(",\n");
+        }
+}
+
+/// The boundary of each material as an element surface, for pressures and contact.
+void write_surfaces(Output& output, const mesh::HexMesh& mesh, const mesh::Materials& materials,
+                    std::span<const std::string> names) {
+    // Abaqus numbers the sides of C3D8: bottom, top, then those at the edges 1-2, 2-3, 3-4 and 4-1 of the bottom.
+    constexpr std::array<std::uint64_t, 6> number_of_side{6, 4, 3, 5, 1, 2};
+    const std::vector<mesh::HexSide> sides = mesh::boundary_sides(mesh).sides;
+    for (std::uint32_t material = 0; material < materials.solids.size(); ++material) {
+        bool begun = false;
+        for (const mesh::HexSide& side : sides) {
+            if (materials.of(mesh, side.cell) != material) continue;
+            if (!begun)
+                output.append(
+                    "*SURFACE, TYPE=ELEMENT, NAME=" +
+                    label("surface_of_" + mesh::material_name(materials.solids[material], names, "_and_")) +
+                    "\n");
+            begun = true;
+            append_count(output, side.cell + std::uint64_t{1});
+            output.append(",S");
+            append_count(output, number_of_side[side.side]);
             output.append('\n');
         }
     }
@@ -140,7 +172,10 @@ Result<WriteReport> write_abaqus(const std::string& path, const mesh::HexMesh& m
     if (!output) return output.error();
     output->append("** Octree mesh with tied hanging nodes\n");
     write_nodes(*output, mesh);
-    write_elements(*output, mesh, options.names);
+    const mesh::Materials materials = mesh::materials_of(mesh);
+    write_elements(*output, mesh, materials, options.names);
+    write_end_sets(*output, mesh);
+    write_surfaces(*output, mesh, materials, options.names);
     write_constraints(*output, mesh, options.field);
     output->append(options.tail);
     if (context.cancelled()) return Context::cancelled_error();

@@ -16,6 +16,9 @@
 // A node *hangs* when it lies inside an edge or a face of a larger cell. A field that is linear along edges is
 // continuous only if the value of such a node is the mean of that edge's 2 or that face's 4 corners, its masters.
 // Under balance by edge or corner no master hangs itself.
+//
+// A mesh may leave the grid: nodes drawn to the surface keep cells and lattice points and get `positions`; a conforming
+// mesh, whose cells are no octants, has positions only.
 
 namespace octavo::mesh {
 
@@ -46,10 +49,11 @@ struct SolidSet {
 
 struct HexMesh {
     exact::Lattice lattice;
-    std::vector<octree::CellKey> cells;             ///< sorted in Morton order
+    std::vector<octree::CellKey> cells;             ///< sorted in Morton order; empty for a conforming mesh
     std::vector<std::array<NodeIndex, 8>> corners;  ///< per cell
     std::vector<exact::Point> nodes;                ///< on the lattice; coordinates go up to 2^26
-    std::vector<EdgeHangingNode> edge_hanging;      ///< each node at most once in both lists
+    std::vector<Vec3> positions;  ///< per node, where they are not those of the lattice; or empty
+    std::vector<EdgeHangingNode> edge_hanging;  ///< each node at most once in both lists
     std::vector<FaceHangingNode> face_hanging;
     /// True when no master hangs itself, so that the constraints can be used as they are: balanced by edge or corner.
     bool constraints_are_direct = true;
@@ -62,7 +66,12 @@ struct HexMesh {
     std::vector<double> fractions;
 
     const SolidSet& set_of(CellIndex cell) const { return sets[set_of_cell[cell]]; }
-    Vec3 position(NodeIndex node) const { return lattice.to_world(nodes[node]); }
+    Vec3 position(NodeIndex node) const {
+        return positions.empty() ? lattice.to_world(nodes[node]) : positions[node];
+    }
+    std::size_t cell_count() const { return corners.size(); }
+    std::size_t node_count() const { return positions.empty() ? nodes.size() : positions.size(); }
+    bool is_octree() const { return cells.size() == corners.size(); }
     /// Number of nodes that hang.
     std::size_t hanging_nodes() const { return edge_hanging.size() + face_hanging.size(); }
 };

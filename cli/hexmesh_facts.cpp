@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hexmesh_facts.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "model.hpp"
+
+namespace octavo::cli {
+namespace {
+
+bool has_fractions(const hexmesh::Built& built) {
+    return !built.mesh.fractions.empty() || built.report.boundary_cells == 0;
+}
+
+/// What the mesh knows of a solid's volume: exact when fractions were computed.
+double volume_of(const hexmesh::SolidReport& solid, bool exact) {
+    return exact ? solid.filled_volume : solid.inside_volume + solid.boundary_volume / 2;
+}
+
+Json json_of(const hexmesh::SolidReport& solid, const std::string& name, bool exact) {
+    Json json = {{"name", name},
+                 {"interior", solid.inside_cells},
+                 {"boundary", solid.boundary_cells},
+                 {"interior_volume", solid.inside_volume},
+                 {"boundary_volume", solid.boundary_volume},
+                 {"exact_volume", solid.exact_volume},
+                 {"snap_displacement", solid.largest_displacement}};
+    if (exact) json["filled_volume"] = solid.filled_volume;
+    return json;
+}
+
+}  // namespace
+
+Json json_of(const hexmesh::Built& built, std::span<const std::string> names) {
+    const hexmesh::Report& report = built.report;
+    const bool exact = has_fractions(built);
+    double volume = 0;
+    Json solids = Json::array(), levels = Json::array();
+    for (std::size_t i = 0; i < report.solids.size(); ++i) {
+        volume += volume_of(report.solids[i], exact);
+        solids.push_back(json_of(report.solids[i], names[i], exact));
+    }
+    const double unit = built.mesh.lattice.unit();
+    for (int level = 0; level <= octree::max_level; ++level)
+        if (const std::uint64_t cells = report.cells_of_level[static_cast<std::size_t>(level)])
+            levels.push_back({{"level", level}, {"side", unit * octree::cell_side(level)}, {"cells", cells}});
+    return {{"cells", built.mesh.cell_count()},
+            {"nodes", built.mesh.node_count()},
+            {"hanging_nodes", built.mesh.hanging_nodes()},
+            {"interior", report.inside_cells},
+            {"boundary", report.boundary_cells},
+            {"volume", volume},
+            {"smallest_cell", report.smallest_cell},
+            {"largest_cell", report.largest_cell},
+            {"tree_cells", report.tree_cells},
+            {"overlaps", report.overlaps},
+            {"levels", levels},
+            {"solids", solids}};
+}
+
+std::string text_of(const hexmesh::Built& built, std::span<const std::string> names) {
+    const hexmesh::Report& report = built.report;
+    std::string text =
+        fmt::format("{} cells from {:.6g} to {:.6g}, {} nodes, {} of them hang\n",
+                    grouped(built.mesh.cell_count()), report.smallest_cell, report.largest_cell,
+                    grouped(built.mesh.node_count()), grouped(built.mesh.hanging_nodes()));
+    const bool exact = has_fractions(built);
+    for (std::size_t i = 0; i < report.solids.size(); ++i) {
+        const hexmesh::SolidReport& solid = report.solids[i];
+        text += fmt::format("{}: {} cells inside, {} on the boundary, volume {:.10g}", names[i],
+                            grouped(solid.inside_cells), grouped(solid.boundary_cells), solid.exact_volume);
+        if (exact && solid.exact_volume != 0)
+            text += fmt::format(", filled but for {:.1e} of it",
+                                std::fabs(solid.filled_volume / solid.exact_volume - 1));
+        text += "\n";
+    }
+    return text;
+}
+
+void warn_about(Session& session, const hexmesh::Report& report, std::span<const std::string> names) {
+    for (std::size_t i = 0; i < report.solids.size(); ++i) {
+        const hexmesh::SolidReport& solid = report.solids[i];
+        if (!solid.open_facets.empty())
+            session.warn(fmt::format("{}: the surface is open; its holes were closed, near facet {}",
+                                     names[i], solid.open_facets.front()));
+        if (solid.inside_cells == 0 && solid.boundary_cells > 0)
+            session.warn(fmt::format("{}: no cell lies inside; the cells are too large for it", names[i]));
+    }
+    if (report.overlaps)
+        session.warn(
+            "a solid overlaps itself; inside is where its surface winds at least once, and volumes count "
+            "overlaps "
+            "as often as they are covered");
+}
+
+}  // namespace octavo::cli

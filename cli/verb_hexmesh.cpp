@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "hexmesh_facts.hpp"
+#include "hexmesh_files.hpp"
+#include "model.hpp"
+#include "numbers.hpp"
+#include "option_checks.hpp"
+#include "program.hpp"
+#include <octavo/boolean/expression.hpp>
+#include <octavo/hexmesh/build.hpp>
+#include <octavo/io/openscad_csg.hpp>
+
+// `octavo hexmesh FILE… -o OUT`: solids → a balanced mesh of hexahedra in the files of solvers and viewers.
+
+namespace octavo::cli {
+namespace {
+
+struct HexmeshOptions {
+    std::vector<std::string> inputs, sizes, boxes;
+    std::string output, to, balance = "edge", open = "reject", overlaps = "reject", curvature;
+    int level = 7;
+    double precision = 0, largest = 0, proximity = 0;
+    bool keep_outside = false, no_fractions = false, skip_unsupported = false;
+};
+
+/// FILE:SURFACE or FILE:SURFACE:INTERIOR.
+struct FileSizes {
+    std::string file;
+    double surface = 0, interior = 0;
+};
+
+std::optional<FileSizes> parse_sizes(const std::string& text) {
+    // File names may have colons; numbers have none. At most two numbers, from the end.
+    const std::size_t last = text.rfind(':');
+    if (last == std::string::npos || last == 0) return std::nullopt;
+    const auto last_number = parse_numbers(std::string_view(text).substr(last + 1));
+    if (!last_number || last_number->size() != 1 || (*last_number)[0] < 0) return std::nullopt;
+    const std::size_t before = text.rfind(':', last - 1);
+    if (before != std::string::npos && before > 0) {
+        const auto number = parse_numbers(std::string_view(text).substr(before + 1, last - before - 1));
+        if (number && number->size() == 1 && (*number)[0] >= 0)
+            return FileSizes{text.substr(0, before), (*number)[0], (*last_number)[0]};
+    }
+    return FileSizes{text.substr(0, last), (*last_number)[0], 0};
+}
+
+/// x0,y0,z0,x1,y1,z1:SIZE.
+std::optional<hexmesh::BoxSize> parse_box(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string::npos) return std::nullopt;
+    const auto corners = parse_numbers(std::string_view(text).substr(0, colon));
+    const auto size = parse_numbers(std::string_view(text).substr(colon + 1));
+    if (!corners || corners->size() != 6 || !size || size->size() != 1 || !((*size)[0] > 0))
+        return std::nullopt;
+    hexmesh::BoxSize box{{}, (*size)[0]};
+    box.box.add(Vec3{(*corners)[0], (*corners)[1], (*corners)[2]});
+    box.box.add(Vec3{(*corners)[3], (*corners)[4], (*corners)[5]});
+    return box;
+}
+
+/// SIZE or SIZE:DEGREES.
+std::optional<hexmesh::CurvatureSize> parse_curvature(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto size = parse_numbers(std::string_view(text).substr(0, colon));
+    if (!size || size->size() != 1 || !((*size)[0] > 0)) return std::nullopt;
+    hexmesh::CurvatureSize curvature{(*size)[0]};
+    if (colon == std::string::npos) return curvature;
+    const auto angle = parse_numbers(std::string_view(text).substr(colon + 1));
+    if (!angle || angle->size() != 1 || !((*angle)[0] > 0 && (*angle)[0] <= 180)) return std::nullopt;
+    curvature.angle_degrees = (*angle)[0];
+    return curvature;
+}
+
+/// The solid that a .csg tree describes, faceted as OpenSCAD does it.
+Result<mesh::Mesh> read_csg_solid(Session& session, const Context& context, const std::string& path,
+                                  const HexmeshOptions& options) {
+    session.inputs.push_back(path);
+    const io::CsgReadOptions reading{.faceted = true, .skip_unsupported = options.skip_unsupported};
+    Result<io::CsgFile> file = session.timed("read", [&] { return io::read_csg(path, reading, context); });
+    if (!file) return std::move(file).error();
+    session.warn(file->warnings);
+    Result<boolean::Evaluated> evaluated =
+        session.timed("evaluate", [&] { return boolean::evaluate(file->expression, {}, context); });
+    if (!evaluated) return in_file(std::move(evaluated).error(), path);
+    session.warn(evaluated->report.warnings);
+    return std::move(evaluated->mesh);
+}
+
+Result<std::vector<mesh::Mesh>> read_solids(Session& session, const Context& context,
+                                            const HexmeshOptions& options) {
+    std::vector<mesh::Mesh> solids;
+    for (const std::string& path : options.inputs) {
+        if (same_file(path, options.output)) return would_overwrite(path);
+        if (kind_of(path, "") == ModelKind::csg) {
+            Result<mesh::Mesh> solid = read_csg_solid(session, context, path, options);
+            if (!solid) return std::move(solid).error();
+            solids.push_back(std::move(*solid));
+            continue;
+        }
+        Result<io::ReadMesh> read = read_mesh(session, context, path);
+        if (!read) return std::move(read).error();
+        solids.push_back(std::move(read->mesh));
+    }
+    return solids;
+}
+
+Result<hexmesh::Options> meshing_options(const HexmeshOptions& options) {
+    hexmesh::Options meshing;
+    meshing.precision = options.precision;
+    meshing.level = options.level;
+    meshing.largest = options.largest;
+    meshing.proximity.smallest = options.proximity;
+    if (!options.curvature.empty()) meshing.curvature = *parse_curvature(options.curvature);
+    for (const std::string& text : options.boxes) meshing.boxes.push_back(*parse_box(text));
+    for (const std::string& text : options.sizes) {
+        const FileSizes sizes = *parse_sizes(text);
+        bool found = false;
+        for (std::size_t i = 0; i < options.inputs.size(); ++i) {
+            if (options.inputs[i] != sizes.file) continue;
+            meshing.solids.push_back({static_cast<mesh::SolidIndex>(i), sizes.surface, sizes.interior});
+            found = true;
+        }
+        if (!found)
+            return Error{ErrorCode::bad_input, "--size names " + sizes.file + ", which is no input", {}};
+    }
+    meshing.balance = options.balance == "face"   ? octree::Contact::face
+                      : options.balance == "edge" ? octree::Contact::edge
+                                                  : octree::Contact::corner;
+    meshing.outside = options.keep_outside ? hexmesh::Outside::keep : hexmesh::Outside::carve;
+    meshing.fractions = options.no_fractions ? hexmesh::Fractions::skip : hexmesh::Fractions::compute;
+    meshing.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
+    meshing.overlaps =
+        options.overlaps == "winding" ? hexmesh::OverlapPolicy::winding : hexmesh::OverlapPolicy::reject;
+    return meshing;
+}
+
+/// The names of the solids: their files', without folder and extension; those of two inputs may be equal.
+std::vector<std::string> names_of(const std::vector<std::string>& inputs) {
+    std::vector<std::string> names;
+    for (const std::string& path : inputs) {
+        std::string name = path == "-" ? "stdin" : std::filesystem::path(path).stem().string();
+        while (std::find(names.begin(), names.end(), name) != names.end()) name += "_2";
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
+/// The error of a solid, with its file: the library knows it by its number.
+Error in_its_file(Error error, const std::vector<std::string>& inputs) {
+    if (inputs.size() == 1) return in_file(std::move(error), inputs[0]);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const std::string prefix = "solid " + std::to_string(i) + ": ";
+        if (error.sentence.rfind(prefix, 0) != 0) continue;
+        error.sentence.erase(0, prefix.size());
+        return in_file(std::move(error), inputs[i]);
+    }
+    return error;
+}
+
+Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
+    const Context context = session.context();
+    const Result<HexmeshFormat> format = hexmesh_format(options.output, options.to);
+    if (!format) return format.error();
+    const Result<hexmesh::Options> meshing = meshing_options(options);
+    if (!meshing) return meshing.error();
+    Result<std::vector<mesh::Mesh>> solids = read_solids(session, context, options);
+    if (!solids) return std::move(solids).error();
+    Result<hexmesh::Built> built =
+        session.timed("mesh", [&] { return hexmesh::build(*solids, *meshing, context); });
+    if (!built) return in_its_file(std::move(built).error(), options.inputs);
+    const std::vector<std::string> names = names_of(options.inputs);
+    warn_about(session, built->report, names);
+    if (options.output == "-") session.stdout_taken = true;
+    if (!options.output.empty()) {
+        Result<io::WriteReport> written = session.timed(
+            "write", [&] { return write_hexmesh(*format, options.output, built->mesh, names, context); });
+        if (!written) return std::move(written).error();
+        session.warn(written->warnings);
+    }
+    session.result = json_of(*built, names);
+    session.text = text_of(*built, names);
+    return ExitCode::ok;
+}
+
+template <class Parse>
+CLI::Validator checked_by(const Parse& parse, const std::string& wanted) {
+    return CLI::Validator(
+        [parse, wanted](const std::string& text) { return parse(text) ? std::string() : wanted; }, "");
+}
+
+void add_size_options(CLI::App* verb, HexmeshOptions& options) {
+    CLI::Option* level =
+        verb->add_option("--level", options.level,
+                         "Cells on surfaces are about 1/2^N of the longest side; 7 by default")
+            ->check(CLI::Range(0, octree::max_level))
+            ->type_name("N");
+    verb->add_option("-p,--precision", options.precision,
+                     "Cells on surfaces are no larger than this, in the model's units")
+        ->check(check_positive)
+        ->type_name("LENGTH")
+        ->excludes(level);
+    verb->add_option("--largest", options.largest, "No cell is larger than this")
+        ->check(check_positive)
+        ->type_name("LENGTH");
+    verb->add_option("--size", options.sizes,
+                     "Cells on the surface of one FILE, and inside it, are no larger than this")
+        ->check(checked_by(parse_sizes, "wants FILE:SURFACE or FILE:SURFACE:INTERIOR, two lengths"))
+        ->type_name("FILE:LENGTH[:LENGTH]");
+    verb->add_option("--box", options.boxes, "Cells in the box are no larger than this")
+        ->check(checked_by(parse_box, "wants x0,y0,z0,x1,y1,z1:LENGTH"))
+        ->type_name("BOX:LENGTH");
+    verb->add_option("--curvature", options.curvature,
+                     "Down to this length, split cells in which the surface turns by more than DEGREES (30)")
+        ->check(checked_by(parse_curvature, "wants LENGTH or LENGTH:DEGREES"))
+        ->type_name("LENGTH[:DEGREES]");
+    verb->add_option("--proximity", options.proximity,
+                     "Down to this length, split cells that hold both sides of a wall")
+        ->check(check_positive)
+        ->type_name("LENGTH");
+}
+
+}  // namespace
+
+void add_hexmesh(Program& program) {
+    const auto options = std::make_shared<HexmeshOptions>();
+    CLI::App* verb = program.verb("hexmesh", "Simulation", "Mesh solids with hexahedra for a solver",
+                                  [options](Session& session) { return make_hexmesh(session, *options); });
+    verb->add_option("FILES", options->inputs, "Closed meshes or OpenSCAD trees (.csg): one solid each")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("-o,--output", options->output, hexmesh_outputs)->type_name("FILE");
+    add_size_options(verb, *options);
+    verb->add_option("--balance", options->balance,
+                     "Cells that differ by one level at most: at a face, edge or corner")
+        ->check(CLI::IsMember({"face", "edge", "corner"}))
+        ->type_name("CONTACT");
+    verb->add_flag("--keep-outside", options->keep_outside, "Keep the cells outside all solids");
+    verb->add_flag("--no-fractions", options->no_fractions,
+                   "Do not compute how much of each boundary cell is filled");
+    verb->add_option("--open", options->open, "An open surface: reject it, or close it and go by winding")
+        ->check(CLI::IsMember({"reject", "winding"}))
+        ->type_name("POLICY");
+    verb->add_option("--overlaps", options->overlaps,
+                     "A solid that overlaps itself: reject it, or go by winding")
+        ->check(CLI::IsMember({"reject", "winding"}))
+        ->type_name("POLICY");
+    verb->add_flag("--skip-unsupported", options->skip_unsupported,
+                   "For .csg: leave out text and the like, with warnings");
+    verb->add_option("--to", options->to, "Format of the output, instead of by its extension")
+        ->type_name("FORMAT");
+}
+
+}  // namespace octavo::cli
