@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hexmesh_facts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@ namespace octavo::cli {
 namespace {
 
 bool has_fractions(const hexmesh::Built& built) {
-    return !built.mesh.fractions.empty() || built.report.boundary_cells == 0;
+    return built.mesh.is_octree() && (!built.mesh.fractions.empty() || built.report.boundary_cells == 0);
 }
 
 /// What the mesh knows of a solid's volume: exact when fractions were computed.
@@ -43,7 +44,7 @@ Json json_of(const hexmesh::Built& built, std::span<const std::string> names) {
         solids.push_back(json_of(report.solids[i], names[i], exact));
     }
     const double unit = built.mesh.lattice.unit();
-    for (int level = 0; level <= octree::max_level; ++level)
+    for (int level = 0; level <= octree::max_level; ++level)  // a conforming mesh has none
         if (const std::uint64_t cells = report.cells_of_level[static_cast<std::size_t>(level)])
             levels.push_back({{"level", level}, {"side", unit * octree::cell_side(level)}, {"cells", cells}});
     return {{"cells", built.mesh.cell_count()},
@@ -77,6 +78,39 @@ std::string text_of(const hexmesh::Built& built, std::span<const std::string> na
         text += "\n";
     }
     return text;
+}
+
+void add_quality(Session& session, const hexmesh::Quality& quality) {
+    session.result["quality"] = {{"least_scaled_jacobian", quality.least},
+                                 {"mean_scaled_jacobian", quality.mean},
+                                 {"histogram", quality.histogram},
+                                 {"not_proved_positive", quality.not_proved_positive}};
+    std::uint64_t most = 1;
+    for (const std::uint64_t count : quality.histogram) most = std::max(most, count);
+    session.text += fmt::format("scaled Jacobian {:.3f} to 1, mean {:.3f}\n", quality.least, quality.mean);
+    for (std::size_t i = 0; i < quality.histogram.size(); ++i) {
+        const auto bar = static_cast<std::size_t>(
+            std::ceil(40.0 * static_cast<double>(quality.histogram[i]) / static_cast<double>(most)));
+        session.text += fmt::format("  {:.1f} {:>12} {}\n", 0.1 * static_cast<double>(i),
+                                    grouped(quality.histogram[i]), std::string(bar, '#'));
+    }
+    if (quality.not_proved_positive > 0)
+        session.warn(
+            fmt::format("{} cells are not proved to be positive everywhere", quality.not_proved_positive));
+}
+
+void add_fit(Session& session, const hexmesh::FitReport& report) {
+    session.result["fit"] = {{"boundary_nodes", report.boundary_nodes},
+                             {"nodes_on_surface", report.nodes_on_surface},
+                             {"mean_distance", report.mean_distance},
+                             {"largest_distance", report.largest_distance},
+                             {"mean_distance_before", report.mean_distance_before},
+                             {"largest_distance_before", report.largest_distance_before}};
+    session.text += fmt::format(
+        "{} of {} boundary nodes are on the surface; distance {:.3g} on average (was {:.3g}), "
+        "{:.3g} at most (was {:.3g})\n",
+        grouped(report.nodes_on_surface), grouped(report.boundary_nodes), report.mean_distance,
+        report.mean_distance_before, report.largest_distance, report.largest_distance_before);
 }
 
 void warn_about(Session& session, const hexmesh::Report& report, std::span<const std::string> names) {

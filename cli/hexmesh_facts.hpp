@@ -6,6 +6,8 @@
 
 #include "session.hpp"
 #include <octavo/hexmesh/build.hpp>
+#include <octavo/hexmesh/fit.hpp>
+#include <octavo/hexmesh/quality.hpp>
 
 // What `hexmesh` tells about a mesh.
 
@@ -16,6 +18,12 @@ Json json_of(const hexmesh::Built& built, std::span<const std::string> names);
 
 /// The same for people.
 std::string text_of(const hexmesh::Built& built, std::span<const std::string> names);
+
+/// Adds `quality`: least, mean and a histogram of the scaled Jacobian.
+void add_quality(Session& session, const hexmesh::Quality& quality);
+
+/// Adds `fit`: how near the boundary came to the surface.
+void add_fit(Session& session, const hexmesh::FitReport& report);
 
 /// What the user should know before trusting the mesh.
 void warn_about(Session& session, const hexmesh::Report& report, std::span<const std::string> names);

@@ -13,6 +13,8 @@
 #include "program.hpp"
 #include <octavo/boolean/expression.hpp>
 #include <octavo/hexmesh/build.hpp>
+#include <octavo/hexmesh/conforming.hpp>
+#include <octavo/hexmesh/fit.hpp>
 #include <octavo/io/openscad_csg.hpp>
 
 // `octavo hexmesh FILE… -o OUT`: solids → a balanced mesh of hexahedra in the files of solvers and viewers.
@@ -22,10 +24,10 @@ namespace {
 
 struct HexmeshOptions {
     std::vector<std::string> inputs, sizes, boxes;
-    std::string output, to, balance = "edge", open = "reject", overlaps = "reject", curvature;
-    int level = 7;
+    std::string output, to, balance = "edge", open = "reject", overlaps = "reject", curvature, keep;
+    int level = 7, layers = -1;
     double precision = 0, largest = 0, proximity = 0;
-    bool keep_outside = false, no_fractions = false, skip_unsupported = false;
+    bool conforming = false, fit = false, no_fractions = false, skip_unsupported = false;
 };
 
 /// FILE:SURFACE or FILE:SURFACE:INTERIOR.
@@ -113,6 +115,7 @@ Result<hexmesh::Options> meshing_options(const HexmeshOptions& options) {
     hexmesh::Options meshing;
     meshing.precision = options.precision;
     meshing.level = options.level;
+    meshing.layers = options.layers >= 0 ? options.layers : options.fit ? 1 : 0;
     meshing.largest = options.largest;
     meshing.proximity.smallest = options.proximity;
     if (!options.curvature.empty()) meshing.curvature = *parse_curvature(options.curvature);
@@ -131,7 +134,13 @@ Result<hexmesh::Options> meshing_options(const HexmeshOptions& options) {
     meshing.balance = options.balance == "face"   ? octree::Contact::face
                       : options.balance == "edge" ? octree::Contact::edge
                                                   : octree::Contact::corner;
-    meshing.outside = options.keep_outside ? hexmesh::Outside::keep : hexmesh::Outside::carve;
+    meshing.keep = options.keep == "all"                                             ? hexmesh::Keep::all
+                   : options.keep == "half" || (options.keep.empty() && options.fit) ? hexmesh::Keep::half
+                                                                                     : hexmesh::Keep::touched;
+    if (options.no_fractions && meshing.keep == hexmesh::Keep::half)
+        return Error{ErrorCode::bad_input,
+                     "--keep half and --fit need fractions, and --no-fractions forbids them",
+                     {}};
     meshing.fractions = options.no_fractions ? hexmesh::Fractions::skip : hexmesh::Fractions::compute;
     meshing.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
     meshing.overlaps =
@@ -162,6 +171,22 @@ Error in_its_file(Error error, const std::vector<std::string>& inputs) {
     return error;
 }
 
+Result<io::WriteReport> write(Session& session, const Context& context, HexmeshFormat format,
+                              const HexmeshOptions& options, const mesh::HexMesh& mesh,
+                              const std::vector<std::string>& names) {
+    if (options.output == "-") session.stdout_taken = true;
+    std::vector<double> quality;
+    std::vector<io::CellData> more;
+    if (options.conforming || options.fit) {
+        quality = hexmesh::scaled_jacobians(mesh);
+        more.push_back({"scaled_jacobian", quality});
+    }
+    Result<io::WriteReport> written = session.timed(
+        "write", [&] { return write_hexmesh(format, options.output, mesh, names, context, more); });
+    if (written) session.warn(written->warnings);
+    return written;
+}
+
 Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     const Context context = session.context();
     const Result<HexmeshFormat> format = hexmesh_format(options.output, options.to);
@@ -170,20 +195,26 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     if (!meshing) return meshing.error();
     Result<std::vector<mesh::Mesh>> solids = read_solids(session, context, options);
     if (!solids) return std::move(solids).error();
-    Result<hexmesh::Built> built =
-        session.timed("mesh", [&] { return hexmesh::build(*solids, *meshing, context); });
+    Result<hexmesh::Built> built = session.timed("mesh", [&] {
+        return options.conforming ? hexmesh::build_conforming(*solids, *meshing, context)
+                                  : hexmesh::build(*solids, *meshing, context);
+    });
     if (!built) return in_its_file(std::move(built).error(), options.inputs);
     const std::vector<std::string> names = names_of(options.inputs);
     warn_about(session, built->report, names);
-    if (options.output == "-") session.stdout_taken = true;
-    if (!options.output.empty()) {
-        Result<io::WriteReport> written = session.timed(
-            "write", [&] { return write_hexmesh(*format, options.output, built->mesh, names, context); });
-        if (!written) return std::move(written).error();
-        session.warn(written->warnings);
-    }
     session.result = json_of(*built, names);
     session.text = text_of(*built, names);
+    if (options.fit) {
+        Result<hexmesh::FitReport> fitted =
+            session.timed("fit", [&] { return hexmesh::fit(built->mesh, *solids, {}, context); });
+        if (!fitted) return std::move(fitted).error();
+        add_fit(session, *fitted);
+    }
+    if (options.conforming || options.fit) add_quality(session, hexmesh::measure_quality(built->mesh));
+    if (!options.output.empty()) {
+        Result<io::WriteReport> written = write(session, context, *format, options, built->mesh, names);
+        if (!written) return std::move(written).error();
+    }
     return ExitCode::ok;
 }
 
@@ -207,6 +238,10 @@ void add_size_options(CLI::App* verb, HexmeshOptions& options) {
     verb->add_option("--largest", options.largest, "No cell is larger than this")
         ->check(check_positive)
         ->type_name("LENGTH");
+    verb->add_option("--layers", options.layers,
+                     "Layers of cells as small as those on the surface, beside it; 0, with --fit 1")
+        ->check(CLI::Range(0, 100))
+        ->type_name("N");
     verb->add_option("--size", options.sizes,
                      "Cells on the surface of one FILE, and inside it, are no larger than this")
         ->check(checked_by(parse_sizes, "wants FILE:SURFACE or FILE:SURFACE:INTERIOR, two lengths"))
@@ -235,11 +270,21 @@ void add_hexmesh(Program& program) {
         ->type_name("FILE");
     verb->add_option("-o,--output", options->output, hexmesh_outputs)->type_name("FILE");
     add_size_options(verb, *options);
-    verb->add_option("--balance", options->balance,
-                     "Cells that differ by one level at most: at a face, edge or corner")
-        ->check(CLI::IsMember({"face", "edge", "corner"}))
-        ->type_name("CONTACT");
-    verb->add_flag("--keep-outside", options->keep_outside, "Keep the cells outside all solids");
+    CLI::Option* balance =
+        verb->add_option("--balance", options->balance,
+                         "Cells that differ by one level at most: at a face, edge or corner")
+            ->check(CLI::IsMember({"face", "edge", "corner"}))
+            ->type_name("CONTACT");
+    CLI::Option* keep = verb->add_option("--keep", options->keep,
+                                         "Cells that belong to the mesh: touched by a solid, at least half "
+                                         "filled (with --fit), or all")
+                            ->check(CLI::IsMember({"touched", "half", "all"}))
+                            ->type_name("WHICH");
+    CLI::Option* conforming = verb->add_flag("--conforming", options->conforming,
+                                             "No hanging nodes: all hexahedra fit, by templates");
+    verb->add_flag("--fit", options->fit, "Draw the boundary onto the surface; every cell stays valid");
+    balance->excludes(conforming);
+    keep->excludes(conforming);
     verb->add_flag("--no-fractions", options->no_fractions,
                    "Do not compute how much of each boundary cell is filled");
     verb->add_option("--open", options->open, "An open surface: reject it, or close it and go by winding")

@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
                         peak_bytes() / static_cast<double>(tree_cells));
             std::printf(computed ? ", volume off by %.1e\n" : "\n", error);
         }
-        options.outside = hexmesh::Outside::keep;
+        options.keep = hexmesh::Keep::all;
         options.fractions = hexmesh::Fractions::skip;
         options.balance = octree::Contact::corner;
         const Result<hexmesh::Built> built = hexmesh::build(std::span(&solid, 1), options, one_thread);

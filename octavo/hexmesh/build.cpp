@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -27,18 +31,37 @@ Error of_solid(Error error, std::size_t solid, std::size_t count) {
     return error;
 }
 
-/// Closes or refuses what is open.
+/// Says where the first open edge runs: with the facets alone a small hole is hard to find.
+Error open_error(const mesh::LatticeMesh& mesh, const std::vector<classic::OpenEdge>& open) {
+    Error error = classic::open_surface_error(open);
+    std::array<char, 160> place;
+    const Vec3 from = mesh.lattice.to_world(mesh.points[open[0].from]),
+               to = mesh.lattice.to_world(mesh.points[open[0].to]);
+    std::snprintf(place.data(), place.size(),
+                  "; the first runs from (%.9g, %.9g, %.9g) to (%.9g, %.9g, %.9g)", from.x, from.y, from.z,
+                  to.x, to.y, to.z);
+    error.sentence += place.data();
+    return error;
+}
+
+/// Closes or refuses what is open, and refuses what encloses nothing.
 Result<SolidFacets> closed_facets(mesh::LatticeMesh mesh, classic::OpenPolicy policy, SolidReport& report) {
     Result<std::vector<classic::Facet>> facets = classic::facets_of(mesh);
     if (!facets) return facets.error();
     const std::vector<classic::OpenEdge> open = classic::open_edges(mesh);
     if (!open.empty()) {
-        const Error error = classic::open_surface_error(open);
-        if (policy == classic::OpenPolicy::reject) return error;
+        if (policy == classic::OpenPolicy::reject) return open_error(mesh, open);
+        report.open_facets = classic::open_surface_error(open).place.faces;
         mesh = classic::close_holes(mesh, open);
         facets = classic::facets_of(mesh);
         if (!facets) return facets.error();
-        report.open_facets = error.place.faces;
+    }
+    if (mesh::exact_volume6(mesh) == 0 && !mesh.triangles.empty()) {
+        Error error{ErrorCode::not_a_solid,
+                    "the surface encloses nothing: its facets cancel each other, or are flat",
+                    {}};
+        error.place.faces = {0};
+        return error;
     }
     report.exact_volume =
         std::ldexp(static_cast<double>(mesh::exact_volume6(mesh)), 3 * mesh.lattice.exponent()) / 6;
@@ -87,6 +110,56 @@ bool splits_a_boundary_cell(const ClassifiedCells& coarse, std::span<const CellK
     return false;
 }
 
+/// Cells that must exist so that each of `cells` has neighbours of its own size on all sides; sorted.
+std::vector<CellKey> neighbourhood(const std::vector<CellKey>& cells) {
+    std::vector<CellKey> all;
+    for (const CellKey cell : cells)
+        for (int z = -1; z <= 1; ++z)
+            for (int y = -1; y <= 1; ++y)
+                for (int x = -1; x <= 1; ++x)
+                    if (const std::optional<CellKey> next = cell.neighbour(x, y, z)) all.push_back(*next);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+/// Splits leaves until every cell of `wanted` is a leaf or is split itself. Both are sorted.
+std::vector<CellKey> split_for(std::span<const CellKey> leaves, std::span<const CellKey> wanted) {
+    std::vector<CellKey> result;
+    const auto split = [&](const auto& self, CellKey cell, std::span<const CellKey> inside) -> void {
+        const bool is_larger =
+            std::any_of(inside.begin(), inside.end(), [&](CellKey w) { return w.level() > cell.level(); });
+        if (!is_larger) return result.push_back(cell);
+        for (int octant = 0; octant < 8; ++octant) {
+            const CellKey child = cell.child(octant);
+            const auto low = std::lower_bound(inside.begin(), inside.end(), child.first_descendant());
+            const auto high = std::upper_bound(low, inside.end(), child.last_descendant());
+            self(self, child, {low, high});
+        }
+    };
+    std::size_t at = 0;
+    for (const CellKey leaf : leaves) {
+        while (at < wanted.size() && wanted[at] < leaf.first_descendant()) ++at;
+        std::size_t end = at;
+        while (end < wanted.size() && wanted[end] <= leaf.last_descendant()) ++end;
+        split(split, leaf, wanted.subspan(at, end - at));
+        at = end;
+    }
+    return result;
+}
+
+/// The refinement that Options::layers asks for.
+std::vector<CellKey> with_layers(const ClassifiedCells& cells, std::vector<CellKey> keys, int layers) {
+    std::vector<CellKey> front;
+    for (std::size_t i = 0; i < cells.keys.size(); ++i)
+        if (!cells.sets[cells.set_of_cell[i]].boundary.empty()) front.push_back(cells.keys[i]);
+    for (int layer = 0; layer < layers; ++layer) {
+        front = neighbourhood(front);
+        keys = split_for(keys, front);
+    }
+    return keys;
+}
+
 Result<ClassifiedCells> balanced_cells(const Prepared& prepared, const Options& options,
                                        const Context& context) {
     const Result<SizeField> sizes =
@@ -94,7 +167,9 @@ Result<ClassifiedCells> balanced_cells(const Prepared& prepared, const Options& 
     if (!sizes) return sizes.error();
     Result<ClassifiedCells> refined = refine(prepared.facets, *sizes, options, context);
     if (!refined) return refined;
-    std::vector<CellKey> keys = octree::balance(refined->keys, options.balance);
+    std::vector<CellKey> keys = octree::balance(
+        options.layers > 0 ? with_layers(*refined, refined->keys, options.layers) : refined->keys,
+        options.balance);
     if (splits_a_boundary_cell(*refined, keys)) return classify(prepared.facets, keys, options, context);
     return inherit(std::move(*refined), std::move(keys));
 }
@@ -124,42 +199,94 @@ class CompensatedSum {
     double sum_ = 0, lost_ = 0;
 };
 
-/// Counts and measures the mesh.
-Report report_of(const mesh::HexMesh& mesh, std::vector<SolidReport> solids) {
-    Report report;
-    report.solids = std::move(solids);
-    std::vector<CompensatedSum> filled(report.solids.size());
+double volume_of(const exact::Lattice& lattice, CellKey cell) {
+    const double side = std::ldexp(lattice.unit(), exact::coordinate_bits - cell.level());
+    return side * side * side;
+}
+
+/// Counts and measures the solids, in all cells.
+void measure_solids(const exact::Lattice& lattice, const ClassifiedCells& cells,
+                    std::vector<SolidReport>& solids) {
+    std::vector<CompensatedSum> filled(solids.size());
     std::size_t fraction = 0;
+    for (std::size_t cell = 0; cell < cells.keys.size(); ++cell) {
+        const mesh::SolidSet& set = cells.sets[cells.set_of_cell[cell]];
+        const double volume = volume_of(lattice, cells.keys[cell]);
+        for (const mesh::SolidIndex solid : set.inside) {
+            ++solids[solid].inside_cells;
+            solids[solid].inside_volume += volume;
+            filled[solid].add(volume);
+        }
+        for (const mesh::SolidIndex solid : set.boundary) {
+            ++solids[solid].boundary_cells;
+            solids[solid].boundary_volume += volume;
+            if (!cells.fractions.empty()) filled[solid].add(volume * cells.fractions[fraction++]);
+        }
+    }
+    for (std::size_t solid = 0; solid < solids.size(); ++solid)
+        solids[solid].filled_volume = filled[solid].total();
+}
+
+/// Counts the cells of the mesh.
+void count_cells(const mesh::HexMesh& mesh, Report& report) {
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
         const int level = mesh.cells[cell].level();
         const double side = std::ldexp(mesh.lattice.unit(), exact::coordinate_bits - level);
-        const double volume = side * side * side;
         const mesh::SolidSet& set = mesh.set_of(static_cast<mesh::CellIndex>(cell));
         ++report.cells_of_level[static_cast<std::size_t>(level)];
         report.boundary_cells += !set.boundary.empty();
         report.inside_cells += set.boundary.empty() && !set.inside.empty();
         report.smallest_cell = cell == 0 ? side : std::min(report.smallest_cell, side);
         report.largest_cell = std::max(report.largest_cell, side);
-        for (const mesh::SolidIndex solid : set.inside) {
-            ++report.solids[solid].inside_cells;
-            report.solids[solid].inside_volume += volume;
-            filled[solid].add(volume);
-        }
-        for (const mesh::SolidIndex solid : set.boundary) {
-            ++report.solids[solid].boundary_cells;
-            report.solids[solid].boundary_volume += volume;
-            if (!mesh.fractions.empty()) filled[solid].add(volume * mesh.fractions[fraction++]);
-        }
     }
-    for (std::size_t solid = 0; solid < report.solids.size(); ++solid)
-        report.solids[solid].filled_volume = filled[solid].total();
-    return report;
+}
+
+/// The solids that a cell on their boundary goes to when it goes to whoever fills half of it. `fractions` are those of
+/// `set.boundary`.
+mesh::SolidSet decided(const mesh::SolidSet& set, std::span<const double> fractions) {
+    mesh::SolidSet result;
+    result.inside = set.inside;
+    double filled = set.inside.empty() ? 0 : 1;
+    for (const double fraction : fractions) filled += fraction;
+    if (filled < 0.5) return result;
+    for (std::size_t i = 0; i < fractions.size(); ++i)
+        if (fractions[i] >= 0.5) result.boundary.push_back(set.boundary[i]);
+    if (result.boundary.empty() && set.inside.empty())
+        result.boundary.push_back(set.boundary[static_cast<std::size_t>(
+            std::max_element(fractions.begin(), fractions.end()) - fractions.begin())]);
+    return result;
+}
+
+/// Leaves every cell to the solids that fill half of it.
+void decide_by_half(ClassifiedCells& cells) {
+    std::map<std::pair<std::vector<mesh::SolidIndex>, std::vector<mesh::SolidIndex>>, std::uint16_t> numbers;
+    std::vector<mesh::SolidSet> sets{mesh::SolidSet{}};
+    numbers.emplace(std::pair(sets[0].inside, sets[0].boundary), std::uint16_t{0});
+    std::vector<double> kept_fractions;
+    std::size_t next = 0;
+    for (std::uint16_t& number : cells.set_of_cell) {
+        const mesh::SolidSet& set = cells.sets[number];
+        const std::span<const double> fractions(cells.fractions.data() + next, set.boundary.size());
+        next += set.boundary.size();
+        mesh::SolidSet changed = decided(set, fractions);
+        for (std::size_t i = 0; i < set.boundary.size(); ++i)
+            if (std::find(changed.boundary.begin(), changed.boundary.end(), set.boundary[i]) !=
+                changed.boundary.end())
+                kept_fractions.push_back(fractions[i]);
+        // Never more sets than before: a set has fewer solids than the one that it comes from, or the same.
+        const auto [at, fresh] = numbers.try_emplace(std::pair(changed.inside, changed.boundary),
+                                                     static_cast<std::uint16_t>(sets.size()));
+        if (fresh) sets.push_back(std::move(changed));
+        number = at->second;
+    }
+    cells.sets = std::move(sets);
+    cells.fractions = std::move(kept_fractions);
 }
 
 /// Keeps the cells that belong to the mesh, and numbers their nodes.
 Result<mesh::HexMesh> assemble(const exact::Lattice& lattice, ClassifiedCells cells, const Options& options) {
     std::vector<std::uint8_t> kept;
-    if (options.outside == Outside::carve) {
+    if (options.keep != Keep::all) {
         kept.resize(cells.keys.size());
         for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = cells.set_of_cell[i] != 0;
     }
@@ -193,6 +320,11 @@ Result<mesh::HexMesh> assemble(const exact::Lattice& lattice, ClassifiedCells ce
 }  // namespace
 
 Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, const Context& context) {
+    if (options.layers < 0 || options.layers > 100)
+        return Error{ErrorCode::bad_input, "the number of layers must be 0 to 100", {}};
+    if (options.keep == Keep::half && options.fractions == Fractions::skip)
+        return Error{
+            ErrorCode::bad_input, "to keep cells that are half filled, fractions must be computed", {}};
     Result<Prepared> prepared = prepare(solids, options);
     if (!prepared) return prepared.error();
     Result<ClassifiedCells> cells = balanced_cells(*prepared, options, context);
@@ -202,14 +334,16 @@ Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, 
     if (context.cancelled()) return Context::cancelled_error();
     prepared->facets = {};
 
-    const std::uint64_t tree_cells = cells->keys.size();
+    Built built;
+    built.report.tree_cells = cells->keys.size();
+    built.report.overlaps = overlaps;
+    built.report.solids = std::move(prepared->reports);
+    measure_solids(prepared->lattice, *cells, built.report.solids);
+    if (options.keep == Keep::half) decide_by_half(*cells);
     context.report("number", 0);
     Result<mesh::HexMesh> mesh = assemble(prepared->lattice, std::move(*cells), options);
     if (!mesh) return mesh.error();
-    Built built;
-    built.report = report_of(*mesh, std::move(prepared->reports));
-    built.report.tree_cells = tree_cells;
-    built.report.overlaps = overlaps;
+    count_cells(*mesh, built.report);
     built.mesh = std::move(*mesh);
     context.report("number", 1);
     return built;

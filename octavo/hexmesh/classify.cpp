@@ -218,7 +218,7 @@ class SolidsProblem {
     bool is_to_be_split(const Cell& cell, const SolidsInCell& in, const Workspace& workspace) const {
         if (!sizes_) return in.end_target - in.first_target > 1;
         if (cell.level >= depth_) return false;
-        const bool in_mesh = in.begin != in.end || options_.outside == Outside::keep;
+        const bool in_mesh = in.begin != in.end || options_.keep == Keep::all;
         int level = in_mesh ? sizes_->level_in(cell) : 0;
         const auto depth = static_cast<std::size_t>(cell.level);
         for (std::uint32_t i = in.begin; i < in.end && level <= cell.level; ++i) {

@@ -103,8 +103,11 @@ class Numberer {
         find_homes();
         if (!count_nodes()) return Error{ErrorCode::limit, "the mesh has more than 2^32 - 1 nodes", {}};
         number_corners();
-        place_nodes();
         find_hanging();
+        // Nodes last, when the tree is gone: the peak of memory is here.
+        tree_ = CellTree({});
+        listed_ = {};
+        place_nodes();
         return Done{};
     }
     Numbering take() { return std::move(result_); }
@@ -208,6 +211,9 @@ class Numberer {
     /// Looks at the middles of the edges and faces of every kept cell that is not of the smallest size.
     void find_hanging() {
         listed_.assign(node_count_ / 64 + 1, 0);
+        // More than enough as a rule; what is not written to takes no memory, and growing would take twice as much.
+        result_.edge_hanging.reserve(kept_.count());
+        result_.face_hanging.reserve(kept_.count());
         const auto visit = [&](Leaf leaf, int level, const CellTree::Block& block) {
             if (level == deepest_ || !kept_.contains(leaf) || !may_have_hanging(block)) return;
             const std::array<NodeIndex, 8>& corners = result_.corners[kept_.rank(leaf)];

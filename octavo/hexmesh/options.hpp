@@ -41,8 +41,14 @@ struct ProximitySize {
     double smallest = 0;  ///< down to this length; 0 switches it off
 };
 
-/// Cells outside all solids.
-enum class Outside : std::uint8_t { carve, keep };
+/// Which cells belong to the mesh.
+enum class Keep : std::uint8_t {
+    touched,  ///< those in a solid, and those that a surface passes through
+    /// Those at least half filled: inside or outside is decided for each cell, and a cell on the boundary of several
+    /// solids goes to those that fill half of it, or else to the one that fills most. What fitting starts from.
+    half,
+    all,  ///< those outside too
+};
 
 /// The part of each boundary cell that lies in a solid.
 enum class Fractions : std::uint8_t { compute, skip };
@@ -62,8 +68,11 @@ struct Options {
     std::vector<BoxSize> boxes = {};
     CurvatureSize curvature = {};
     ProximitySize proximity = {};
+    /// Cells that touch a boundary cell are no larger than it, and those that touch these, so many times. One layer
+    /// keeps larger cells off the boundary under Keep::half.
+    int layers = 0;
     octree::Contact balance = octree::Contact::edge;
-    Outside outside = Outside::carve;
+    Keep keep = Keep::touched;
     Fractions fractions = Fractions::compute;
     classic::OpenPolicy open = classic::OpenPolicy::reject;
     OverlapPolicy overlaps = OverlapPolicy::reject;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <set>
 #include <string>
 
@@ -191,6 +192,34 @@ TEST(Build, RefinesThinWallsByProximity) {
     expect_exact_volumes(*fine);
 }
 
+TEST(Build, KeepsLargerCellsAwayFromTheBoundaryByLayers) {
+    const Mesh solid = mesh::icosphere(1, 12);
+    for (const int layers : {0, 1, 3}) {
+        const Result<Built> built = build(std::span(&solid, 1), {.precision = 0.07, .layers = layers});
+        ASSERT_TRUE(built);
+        expect_consistent(*built);
+        expect_exact_volumes(*built);
+        std::set<octree::CellKey> cells(built->mesh.cells.begin(), built->mesh.cells.end());
+        std::size_t larger = 0;
+        for (mesh::CellIndex cell = 0; cell < built->mesh.cells.size(); ++cell) {
+            if (built->mesh.set_of(cell).boundary.empty()) continue;
+            for (int dz = -layers; dz <= layers; ++dz)
+                for (int dy = -layers; dy <= layers; ++dy)
+                    for (int dx = -layers; dx <= layers; ++dx) {
+                        const octree::CellKey key = built->mesh.cells[cell];
+                        const exact::Point low = key.low();
+                        const octree::CellKey next = octree::CellKey::at(
+                            {low.x + dx * key.side(), low.y + dy * key.side(), low.z + dz * key.side()},
+                            key.level());
+                        for (int level = 1; level < key.level(); ++level)
+                            larger += cells.contains(next.ancestor(level));
+                    }
+        }
+        EXPECT_EQ(larger, 0u) << layers;
+        EXPECT_GT(built->report.largest_cell, built->report.smallest_cell);
+    }
+}
+
 TEST(Build, GivesTheSameBytesForAnyNumberOfThreads) {
     const std::vector<Mesh> solids{mesh::displaced_sphere(40), moved(mesh::gear(), {0.5, 0, 0})};
     const Options options{.precision = 0.5, .solids = {{.solid = 0, .surface = 0.03}}};
@@ -234,6 +263,20 @@ TEST(Build, RefusesWhatIsNoSolidAndNamesFacets) {
     EXPECT_TRUE(accepted->report.overlaps);
 }
 
+TEST(Build, SaysWhereAHoleIsAndRefusesWhatEnclosesNothing) {
+    Mesh open = mesh::box({0, 0, 0}, {1, 2, 3});
+    open.triangles.pop_back();
+    const Result<Built> leaking = build(std::span(&open, 1));
+    ASSERT_FALSE(leaking);
+    EXPECT_NE(leaking.error().sentence.find("3 edges"), std::string::npos) << leaking.error().sentence;
+    EXPECT_NE(leaking.error().sentence.find("the first runs from (1, 0, "), std::string::npos)
+        << leaking.error().sentence;
+    const Mesh sheet = joined(mesh::box({0, 0, 0}, {1, 2, 3}), reversed(mesh::box({0, 0, 0}, {1, 2, 3})));
+    const Result<Built> nothing = build(std::span(&sheet, 1));
+    ASSERT_FALSE(nothing);
+    EXPECT_EQ(nothing.error().code, ErrorCode::not_a_solid);
+}
+
 TEST(Build, RefusesOptionsThatMakeNoSense) {
     const Mesh solid = mesh::cube();
     const auto code = [&](const Options& options) {
@@ -251,6 +294,28 @@ TEST(Build, RefusesOptionsThatMakeNoSense) {
     const Result<Built> cancelled = build(std::span(&solid, 1), {}, {.on_progress = {}, .cancel = &cancel});
     ASSERT_FALSE(cancelled);
     EXPECT_EQ(cancelled.error().code, ErrorCode::cancelled);
+}
+
+TEST(Build, MeshesDefectiveModelsRightlyOrSaysWhatIsWrongWhere) {
+    const std::filesystem::path folder = tests::models_folder() / "defective";
+    OCTAVO_NEEDS_MODEL("defective/cube-open.off");
+    int meshed = 0, refused = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const auto model = io::read_mesh(entry.path().string());
+        if (!model) continue;  // io/ has its own tests
+        const Result<Built> built = build(std::span(&model->mesh, 1), {.level = 5});
+        if (built) {
+            expect_consistent(*built);
+            expect_exact_volumes(*built);
+            ++meshed;
+        } else {
+            EXPECT_EQ(built.error().code, ErrorCode::not_a_solid) << entry.path();
+            EXPECT_FALSE(built.error().place.faces.empty()) << entry.path();
+            ++refused;
+        }
+    }
+    EXPECT_GT(meshed, 8);
+    EXPECT_GT(refused, 25);
 }
 
 TEST(Build, FillsRealModelsToTheirExactVolume) {

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "hexmesh/folder.hpp"
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/to_polyhedra.hpp>
 #include <octavo/io/abaqus.hpp>
@@ -26,21 +27,6 @@ namespace octavo::hexmesh {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that goes away with the test.
-class Folder {
-  public:
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "octavo-hexmesh-XXXXXX").string();
-        path_ = ::mkdtemp(name.data());
-    }
-    ~Folder() { fs::remove_all(path_); }
-    fs::path operator/(const char* name) const { return path_ / name; }
-    std::string string() const { return path_.string(); }
-
-  private:
-    fs::path path_;
-};
 
 bool is_installed(const std::string& program) {
     return std::system(("command -v " + program + " > /dev/null 2>&1").c_str()) == 0;

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include <octavo/hexmesh/conforming.hpp>
+#include <octavo/hexmesh/cubic_grid.hpp>
+#include <octavo/hexmesh/quality.hpp>
+#include <octavo/hexmesh/size_field.hpp>
+#include <octavo/query/inside.hpp>
+
+namespace octavo::hexmesh {
+namespace {
+
+using mesh::CellIndex;
+using mesh::NodeIndex;
+
+double base_size(const Options& options, const Box3& content) {
+    const Vec3 extents = content.extents();
+    return options.precision != 0 ? options.precision
+                                  : std::ldexp(std::max({extents.x, extents.y, extents.z}), -options.level);
+}
+
+/// The smallest length that the options ask for.
+double smallest_size(const Options& options, double base) {
+    double size = base;
+    const auto at_most = [&](double length) {
+        if (length > 0) size = std::min(size, length);
+    };
+    at_most(options.largest), at_most(options.curvature.smallest), at_most(options.proximity.smallest);
+    for (const SolidSize& solid : options.solids) at_most(solid.surface), at_most(solid.interior);
+    for (const BoxSize& box : options.boxes) at_most(box.size);
+    return size;
+}
+
+/// The grid, and what it takes to find places in it.
+struct Grid {
+    double base;  ///< side of cells of the last level
+    CubicGrid cubic;
+
+    double side_of(int level) const { return base / std::pow(3.0, cubic.last_level() - level); }
+};
+
+/// As many levels as it takes from the base to the smallest size.
+Result<Grid> make_grid(const Options& options, const Box3& content) {
+    const double base = base_size(options, content), smallest = smallest_size(options, base);
+    int levels = 1;
+    for (double side = base; side > smallest * (1 + 1e-12) && levels < 12; side /= 3) ++levels;
+    constexpr double most_cells = 1 << 20;
+    const double side = base / std::pow(3.0, levels - 1);
+    for (const Vec3& corner : {content.low, content.high})
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::fabs(corner[axis]) / side >= most_cells / 2)
+                return Error{
+                    ErrorCode::limit, "a conforming mesh reaches at most 2^19 cells from the origin", {}};
+    return Grid{base, CubicGrid(levels)};
+}
+
+/// Calls `visit` for the cells of side `side` that meet a box.
+template <class Visit>
+void for_each_place(const Vec3& low, double reach, double side, const Visit& visit) {
+    GridPlace first{}, last{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double at = low[static_cast<int>(axis)];
+        first[axis] = static_cast<std::int64_t>(std::floor(at / side));
+        last[axis] = static_cast<std::int64_t>(std::ceil((at + reach) / side));
+    }
+    for (std::int64_t z = first[2]; z < last[2]; ++z)
+        for (std::int64_t y = first[1]; y < last[1]; ++y)
+            for (std::int64_t x = first[0]; x < last[0]; ++x) visit(GridPlace{x, y, z});
+}
+
+/// Roots where the octree has cells, and smaller ones where it has cells smaller than the base: all of them where
+/// a surface passes, elsewhere those that the size field wants.
+void refine_like(const mesh::HexMesh& octants, const SizeField& sizes, Grid& grid) {
+    for (CellIndex cell = 0; cell < octants.cell_count(); ++cell) {
+        const mesh::SolidSet& set = octants.set_of(cell);
+        const octree::Cell octant = octree::Cell::of(octants.cells[cell]);
+        const Vec3 low = octants.lattice.to_world(octant.low);
+        const double reach = octants.lattice.unit() * octant.side();
+        for_each_place(low, reach, grid.base, [&](const GridPlace& place) { grid.cubic.add_root(place); });
+        int wanted = octant.level;
+        if (set.boundary.empty()) {
+            wanted = sizes.level_in(octant);
+            for (const mesh::SolidIndex solid : set.inside)
+                wanted = std::max(wanted, sizes.interior_level(solid));
+        }
+        // An octant of the base's size or larger may be up to half as large as the base: it asks for nothing.
+        const double size = octants.lattice.unit() * octree::cell_side(wanted);
+        if (2 * size > grid.base) continue;
+        int level = 0;
+        while (level < grid.cubic.last_level() && grid.side_of(level + 1) <= size) ++level;
+        for_each_place(low, reach, grid.side_of(level),
+                       [&](const GridPlace& place) { grid.cubic.refine_to(level, place); });
+    }
+}
+
+/// A point of the grid, in parts of the smallest cells' sides.
+struct GridPoint {
+    TemplatePoint at;
+    friend bool operator==(const GridPoint&, const GridPoint&) = default;
+};
+
+struct GridPointHash {
+    std::size_t operator()(const GridPoint& p) const {
+        std::uint64_t h = 0;
+        for (const std::int64_t v : p.at) {
+            h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ULL;
+            h ^= h >> 29;
+        }
+        return h;
+    }
+};
+
+/// Hexahedra as they come out of the grid, before it is known which belong to the mesh.
+struct LooseHexes {
+    std::vector<TemplateHex> hexes;
+    std::vector<Vec3> centres;
+};
+
+LooseHexes cut_leaves(const Grid& grid) {
+    std::map<EdgeSet, std::vector<TemplateHex>> templates;
+    LooseHexes loose;
+    const double side = grid.side_of(0);
+    grid.cubic.for_each_leaf([&](const CubicGrid::Leaf& leaf) {
+        auto found = templates.find(leaf.cut);
+        if (found == templates.end()) found = templates.emplace(leaf.cut, cut_cell(leaf.cut)).first;
+        OCTAVO_CHECK(!found->second.empty(), "every leaf of a closed grid has a template");
+        std::int64_t scale = 1;
+        for (int level = 0; level < leaf.level; ++level) scale *= 3;
+        for (const TemplateHex& local : found->second) {
+            TemplateHex& hex = loose.hexes.emplace_back();
+            Vec3 sum;
+            for (std::size_t corner = 0; corner < 8; ++corner)
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    hex[corner][axis] = scale * (leaf.place[axis] * template_side + local[corner][axis]);
+                    sum[static_cast<int>(axis)] += static_cast<double>(hex[corner][axis]);
+                }
+            loose.centres.push_back((side / (8.0 * template_side)) * sum);
+        }
+    });
+    return loose;
+}
+
+/// The solids that contain each centre.
+Result<std::vector<std::vector<mesh::SolidIndex>>> solids_at(std::span<const mesh::Mesh> solids,
+                                                             const std::vector<Vec3>& centres,
+                                                             const Options& options, const Context& context) {
+    std::vector<std::vector<mesh::SolidIndex>> found(centres.size());
+    for (mesh::SolidIndex solid = 0; solid < solids.size(); ++solid) {
+        query::InsideOptions asking;
+        asking.open = options.open;
+        const Result<query::InsideQuery> inside = query::InsideQuery::build(solids[solid], asking, context);
+        if (!inside) return inside.error();
+        const std::vector<query::Side> sides = (*inside)(centres, context);
+        if (context.cancelled()) return Context::cancelled_error();
+        for (std::size_t i = 0; i < centres.size(); ++i)
+            if (sides[i] == query::Side::inside) found[i].push_back(solid);
+    }
+    return found;
+}
+
+mesh::HexMesh assemble(const LooseHexes& loose, const std::vector<std::vector<mesh::SolidIndex>>& solids,
+                       double side) {
+    mesh::HexMesh mesh;
+    mesh.sets.push_back({});
+    std::map<std::vector<mesh::SolidIndex>, std::uint16_t> sets;
+    std::unordered_map<GridPoint, NodeIndex, GridPointHash> nodes;
+    for (std::size_t i = 0; i < loose.hexes.size(); ++i) {
+        if (solids[i].empty()) continue;
+        const auto [set, fresh_set] =
+            sets.try_emplace(solids[i], static_cast<std::uint16_t>(mesh.sets.size()));
+        if (fresh_set) mesh.sets.push_back({solids[i], {}});
+        mesh.set_of_cell.push_back(set->second);
+        std::array<NodeIndex, 8>& corners = mesh.corners.emplace_back();
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            const TemplatePoint& at = loose.hexes[i][corner];
+            const auto [node, fresh] = nodes.try_emplace(GridPoint{at}, static_cast<NodeIndex>(nodes.size()));
+            if (fresh)
+                mesh.positions.push_back((side / template_side) * Vec3{static_cast<double>(at[0]),
+                                                                       static_cast<double>(at[1]),
+                                                                       static_cast<double>(at[2])});
+            corners[corner] = node->second;
+        }
+    }
+    return mesh;
+}
+
+/// Six tetrahedra round the diagonal; exact for the boxes and prisms of templates, and near enough for others.
+double volume_of(const CellCorners& p) {
+    constexpr std::array<std::array<std::size_t, 2>, 6> around{
+        {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}};
+    double six = 0;
+    for (const auto& [a, b] : around) six += dot(p[a] - p[0], cross(p[b] - p[0], p[7] - p[0]));
+    return six / 6;
+}
+
+/// Counts what the mesh has; sizes are edges of the least and the largest cube with the cells' volume.
+void measure(const mesh::HexMesh& mesh, Report& report) {
+    report.inside_cells = mesh.cell_count();
+    report.boundary_cells = 0;
+    report.cells_of_level = {};
+    for (SolidReport& solid : report.solids)
+        solid.inside_cells = solid.boundary_cells = 0, solid.inside_volume = solid.boundary_volume = 0;
+    for (CellIndex cell = 0; cell < mesh.cell_count(); ++cell) {
+        const double volume = volume_of(corners_of(mesh, cell)), side = std::cbrt(volume);
+        report.smallest_cell = cell == 0 ? side : std::min(report.smallest_cell, side);
+        report.largest_cell = cell == 0 ? side : std::max(report.largest_cell, side);
+        for (const mesh::SolidIndex solid : mesh.set_of(cell).inside) {
+            ++report.solids[solid].inside_cells;
+            report.solids[solid].inside_volume += volume;
+        }
+    }
+}
+
+}  // namespace
+
+Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options& options,
+                               const Context& context) {
+    Box3 content;
+    for (const mesh::Mesh& solid : solids) content.add(solid.bounds());
+    Options sizing = options;
+    sizing.keep = Keep::touched;
+    sizing.fractions = Fractions::skip;
+    sizing.balance = octree::Contact::face;
+    Result<Built> built = build(solids, sizing, context);
+    if (!built) return built;
+    const Result<SizeField> sizes = SizeField::from(sizing, solids.size(), content, built->mesh.lattice);
+    if (!sizes) return sizes.error();
+
+    context.report("conform", 0);
+    Result<Grid> grid = make_grid(options, content);
+    if (!grid) return grid.error();
+    refine_like(built->mesh, *sizes, *grid);
+    built->mesh = {};
+    grid->cubic.close();
+    context.report("conform", 0.3);
+    if (context.cancelled()) return Context::cancelled_error();
+    const LooseHexes loose = cut_leaves(*grid);
+    context.report("conform", 0.6);
+    const auto inside = solids_at(solids, loose.centres, options, context);
+    if (!inside) return inside.error();
+    built->mesh = assemble(loose, *inside, grid->side_of(0));
+    built->report.tree_cells = loose.hexes.size();
+    measure(built->mesh, built->report);
+    context.report("conform", 1);
+    return built;
+}
+
+}  // namespace octavo::hexmesh

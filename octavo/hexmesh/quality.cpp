@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <octavo/hexmesh/quality.hpp>
+
+namespace octavo::hexmesh {
+namespace {
+
+double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
+
+}  // namespace
+
+double scaled_jacobian(const CellCorners& p) {
+    double least = 1;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        // Edges in the direction of growing coordinates, so that the determinant has one sign at all corners.
+        std::array<Vec3, 3> edge;
+        for (unsigned axis = 0; axis < 3; ++axis)
+            edge[axis] = p[corner | 1U << axis] - p[corner & ~(1U << axis)];
+        const double lengths = length(edge[0]) * length(edge[1]) * length(edge[2]);
+        least = std::min(least, lengths > 0 ? determinant(edge[0], edge[1], edge[2]) / lengths : 0.0);
+    }
+    return least;
+}
+
+bool is_positive_everywhere(const CellCorners& p) {
+    // Derivatives along x at (y, z) ∈ {0, 1}², and so on: index = first + 2 * second of the other two axes.
+    std::array<Vec3, 4> dx, dy, dz;
+    double longest = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+        const unsigned low = i & 1, high = i >> 1;
+        dx[i] = p[1 | low << 1 | high << 2] - p[low << 1 | high << 2];  // y, z
+        dy[i] = p[low | 2 | high << 2] - p[low | high << 2];            // x, z
+        dz[i] = p[low | high << 1 | 4] - p[low | high << 1];            // x, y
+        for (const Vec3& edge : {dx[i], dy[i], dz[i]}) longest = std::max(longest, dot(edge, edge));
+    }
+    // Products of linear Bernstein polynomials along each axis: indices add, weights are 1, ½ + ½, 1.
+    std::array<double, 27> sum{};
+    for (unsigned a = 0; a < 4; ++a)
+        for (unsigned b = 0; b < 4; ++b)
+            for (unsigned c = 0; c < 4; ++c) {
+                const unsigned i = (b & 1) + (c & 1), j = (a & 1) + (c >> 1), k = (a >> 1) + (b >> 1);
+                const double weight = (i == 1 ? 0.5 : 1) * (j == 1 ? 0.5 : 1) * (k == 1 ? 0.5 : 1);
+                sum[i + 3 * j + 9 * k] += weight * determinant(dx[a], dy[b], dz[c]);
+            }
+    const double margin = 1e-9 * longest * std::sqrt(longest);
+    return margin > 0 && std::all_of(sum.begin(), sum.end(), [&](double value) { return value > margin; });
+}
+
+CellCorners corners_of(const mesh::HexMesh& mesh, mesh::CellIndex cell) {
+    CellCorners corners;
+    for (std::size_t i = 0; i < 8; ++i) corners[i] = mesh.position(mesh.corners[cell][i]);
+    return corners;
+}
+
+std::vector<double> scaled_jacobians(const mesh::HexMesh& mesh) {
+    std::vector<double> values;
+    values.reserve(mesh.cell_count());
+    for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell)
+        values.push_back(scaled_jacobian(corners_of(mesh, cell)));
+    return values;
+}
+
+Quality measure_quality(const mesh::HexMesh& mesh) {
+    Quality quality;
+    double sum = 0;
+    for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell) {
+        const CellCorners corners = corners_of(mesh, cell);
+        const double value = scaled_jacobian(corners);
+        quality.least = std::min(quality.least, value);
+        sum += value;
+        ++quality.histogram[static_cast<std::size_t>(std::clamp(std::floor(value * 10), 0.0, 9.0))];
+        quality.not_proved_positive += !is_positive_everywhere(corners);
+    }
+    if (mesh.cell_count() > 0) quality.mean = sum / static_cast<double>(mesh.cell_count());
+    return quality;
+}
+
+}  // namespace octavo::hexmesh

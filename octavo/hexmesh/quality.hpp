@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <octavo/mesh/hex_mesh.hpp>
+
+// How good the cells of a mesh are for a solver: the scaled Jacobian, and whether the map from the unit cube is one to
+// one in each cell.
+//
+// The scaled Jacobian of a corner is the determinant of its three edges over the product of their lengths: 1 for a
+// right angle, 0 when flat, negative when folded; a cell's is the least of its eight corners. That alone does not tell
+// whether the trilinear map folds inside. Its determinant is a polynomial of degree 2 along each axis; written
+// in Bernstein form it lies between the least and the largest of its 27 coefficients, so when all are positive it is
+// positive everywhere (A. Johnen, J.-C. Weill, J.-F. Remacle, Robust and efficient validation of the linear
+// hexahedral element, 2017). Coefficients must exceed 10⁻⁹ of the cube of the longest edge, a million times what
+// rounding does to them, so a yes is a proof.
+
+namespace octavo::hexmesh {
+
+using CellCorners = std::array<Vec3, 8>;
+
+double scaled_jacobian(const CellCorners& corners);
+
+/// True only if the trilinear map is positively oriented everywhere in the cell.
+bool is_positive_everywhere(const CellCorners& corners);
+
+struct Quality {
+    double least = 1, mean = 1;
+    /// Cells with scaled Jacobian in [i/10, (i+1)/10); those below 0 in the first, 1 in the last.
+    std::array<std::uint64_t, 10> histogram{};
+    std::uint64_t not_proved_positive = 0;  ///< cells that `is_positive_everywhere` does not vouch for
+};
+
+CellCorners corners_of(const mesh::HexMesh& mesh, mesh::CellIndex cell);
+
+/// Per cell.
+std::vector<double> scaled_jacobians(const mesh::HexMesh& mesh);
+
+Quality measure_quality(const mesh::HexMesh& mesh);
+
+}  // namespace octavo::hexmesh

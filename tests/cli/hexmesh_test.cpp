@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include "cli/program.hpp"
+
+// The verb hexmesh, end to end: the keys that scripts rely on, every kind of output, and what it refuses.
+
+namespace octavo::tests {
+namespace {
+
+using Hexmesh = ProgramTest;
+using nlohmann::json;
+
+TEST_F(Hexmesh, TellsWhatScriptsRelyOn) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
+    const Ran ran = octavo("hexmesh cube.off -p 0.25 --largest 0.25 -o cube.inp --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const json result = ran.json()["result"];
+    EXPECT_EQ(result["cells"], 512);
+    EXPECT_EQ(result["nodes"], 729);
+    EXPECT_EQ(result["hanging_nodes"], 0);
+    EXPECT_EQ(result["interior"], 512);
+    EXPECT_EQ(result["boundary"], 0);
+    EXPECT_EQ(result["volume"], 8.0);
+    ASSERT_EQ(result["levels"].size(), 1u);
+    EXPECT_EQ(result["levels"][0]["side"], 0.25);
+    ASSERT_EQ(result["solids"].size(), 1u);
+    EXPECT_EQ(result["solids"][0]["name"], "cube");
+    EXPECT_EQ(result["solids"][0]["filled_volume"], 8.0);
+    EXPECT_TRUE(ran.json()["timings"].contains("mesh"));
+}
+
+TEST_F(Hexmesh, WritesEveryFormat) {
+    ASSERT_EQ(octavo("shape gear -o gear.ply").exit_code, 0);
+    for (const char* output : {"g.inp", "g.mesh", "g.csv", "g.vtu", "g.htg"}) {
+        const Ran ran = octavo(std::string("hexmesh gear.ply --level 4 -o ") + output);
+        EXPECT_EQ(ran.exit_code, 0) << output << ran.err;
+        EXPECT_GT(std::filesystem::file_size(path(output)), 1000u) << output;
+    }
+    EXPECT_EQ(octavo("hexmesh gear.ply --level 4 -o case").exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(path("case/constant/polyMesh/owner")));
+    EXPECT_EQ(octavo("hexmesh gear.ply --level 4 --conforming -o g.msh").exit_code, 0);
+    EXPECT_EQ(read("g.msh").rfind("$MeshFormat", 0), 0u);
+    const Ran piped = octavo("hexmesh gear.ply --level 4 -o - --to abaqus");
+    EXPECT_EQ(piped.out, read("g.inp"));
+}
+
+TEST_F(Hexmesh, MeshesSeveralSolidsAndCsgTrees) {
+    write("a.csg",
+          "difference() { cube(size = [4, 4, 4], center = true); cylinder(h = 9, r1 = 1, r2 = 1, "
+          "center = true, $fn = 16); }");
+    ASSERT_EQ(octavo("shape cube --size 2 -o b.stl").exit_code, 0);
+    const Ran ran = octavo("hexmesh a.csg b.stl -p 0.3 --size b.stl:0.1:0.2 -o ab.inp --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const json solids = ran.json()["result"]["solids"];
+    ASSERT_EQ(solids.size(), 2u);
+    for (const json& solid : solids)
+        EXPECT_NEAR(solid["filled_volume"].get<double>() / solid["exact_volume"].get<double>(), 1, 1e-9);
+    // 16-gon of radius 1.
+    EXPECT_NEAR(solids[0]["exact_volume"].get<double>(), 64 - 4 * 8 * std::sin(M_PI / 8), 1e-5);
+    const std::string file = read("ab.inp");
+    for (const char* set :
+         {"ELSET=A\n", "ELSET=B\n", "ELSET=A_AND_B\n", "NAME=SURFACE_OF_A\n", "NSET=XMIN\n"})
+        EXPECT_NE(file.find(set), std::string::npos) << set;
+}
+
+TEST_F(Hexmesh, FitsAndReportsQuality) {
+    ASSERT_EQ(octavo("shape gear -o gear.ply").exit_code, 0);
+    const Ran ran = octavo("hexmesh gear.ply --level 4 --fit -o fitted.inp --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const json result = ran.json()["result"];
+    EXPECT_EQ(result["quality"]["not_proved_positive"], 0);
+    EXPECT_GE(result["quality"]["least_scaled_jacobian"].get<double>(), 0.2);
+    EXPECT_EQ(result["quality"]["histogram"].size(), 10u);
+    EXPECT_LT(result["fit"]["mean_distance"].get<double>(),
+              result["fit"]["mean_distance_before"].get<double>());
+    EXPECT_NE(octavo("hexmesh gear.ply --level 4 --fit").out.find("scaled Jacobian"), std::string::npos);
+}
+
+TEST_F(Hexmesh, RefusesBadUsageAndBadDataWithThePlace) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
+    for (const char* arguments : {"hexmesh", "hexmesh cube.off --level 22", "hexmesh cube.off -p 0",
+                                  "hexmesh cube.off --size cube.off", "hexmesh cube.off --box 1,2,3:4",
+                                  "hexmesh cube.off --level 3 -p 1", "hexmesh cube.off --curvature 1:999",
+                                  "hexmesh cube.off --conforming --balance face"})
+        EXPECT_EQ(octavo(arguments).exit_code, 2) << arguments;
+    for (const char* arguments :
+         {"hexmesh cube.off -o cube.xyz", "hexmesh cube.off --size other.off:1 -o c.inp",
+          "hexmesh none.off -o c.inp", "hexmesh cube.off -o c.msh --level 3 --box 0,0,0,0.1,0.1,0.1:0.05",
+          "hexmesh cube.off --balance face -o c.inp"}) {
+        EXPECT_EQ(octavo(arguments).exit_code, 3) << arguments;
+        EXPECT_FALSE(std::filesystem::exists(path("c.inp"))) << arguments;
+    }
+    write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
+    const Ran ran = octavo("hexmesh cube.off open.off -o c.inp --json");
+    EXPECT_EQ(ran.exit_code, 3);
+    EXPECT_EQ(ran.json()["error"]["file"], "open.off");
+    EXPECT_FALSE(ran.json()["error"]["faces"].empty());
+    EXPECT_NE(ran.err.find("the first runs from"), std::string::npos) << ran.err;
+}
+
+}  // namespace
+}  // namespace octavo::tests

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <octavo/hexmesh/build.hpp>
+#include <octavo/hexmesh/conforming.hpp>
+#include <octavo/hexmesh/fit.hpp>
+#include <octavo/mesh/hex_sides.hpp>
+#include <octavo/mesh/shapes.hpp>
+
+namespace octavo::hexmesh {
+namespace {
+
+void expect_valid(const mesh::HexMesh& mesh, double least) {
+    const Quality quality = measure_quality(mesh);
+    EXPECT_EQ(quality.not_proved_positive, 0u);
+    EXPECT_GE(quality.least, least);
+    for (const mesh::EdgeHangingNode& hanging : mesh.edge_hanging)
+        ASSERT_EQ(mesh.positions[hanging.node],
+                  0.5 * (mesh.positions[hanging.masters[0]] + mesh.positions[hanging.masters[1]]));
+    for (const mesh::FaceHangingNode& hanging : mesh.face_hanging) {
+        Vec3 sum;
+        for (const mesh::NodeIndex master : hanging.masters) sum = sum + mesh.positions[master];
+        ASSERT_EQ(mesh.positions[hanging.node], 0.25 * sum);
+    }
+}
+
+TEST(Fit, DrawsTheBoundaryOfASphereOntoIt) {
+    const mesh::Mesh sphere = mesh::icosphere(1, 20);
+    Result<Built> built = build(std::span(&sphere, 1), {.precision = 0.07, .layers = 1, .keep = Keep::half});
+    ASSERT_TRUE(built);
+    ASSERT_GT(built->mesh.hanging_nodes(), 100u);
+    const Result<FitReport> report = fit(built->mesh, std::span(&sphere, 1));
+    ASSERT_TRUE(report) << report.error().describe();
+    expect_valid(built->mesh, 0.2);
+    EXPECT_GT(report->boundary_nodes, 1000u);
+    EXPECT_LT(report->mean_distance, report->mean_distance_before / 7);
+    EXPECT_LT(report->largest_distance, report->largest_distance_before);
+    EXPECT_GT(report->nodes_on_surface, report->boundary_nodes / 2);
+    double largest = 0;
+    for (const mesh::HexSide& side : mesh::boundary_sides(built->mesh).sides)
+        for (const mesh::NodeIndex node : side.corners)
+            largest = std::max(largest, std::fabs(length(built->mesh.positions[node]) - 1));
+    EXPECT_NEAR(largest, report->largest_distance, 0.01) << "the report tells how far nodes stay behind";
+}
+
+TEST(Fit, KeepsEveryCellValidOnThinAndSharpParts) {
+    const std::vector<mesh::Mesh> solids{mesh::gear(), mesh::menger_sponge(2),
+                                         mesh::box({0.01, 0, 0}, {3, 2, 0.11})};
+    for (const mesh::Mesh& solid : solids) {
+        Result<Built> built = build(std::span(&solid, 1), {.level = 4, .layers = 1, .keep = Keep::half});
+        ASSERT_TRUE(built);
+        Result<Built> conforming = build_conforming(std::span(&solid, 1), {.level = 4});
+        ASSERT_TRUE(conforming);
+        for (mesh::HexMesh* mesh : {&built->mesh, &conforming->mesh}) {
+            const double before = measure_quality(*mesh).least;
+            const Result<FitReport> report = fit(*mesh, std::span(&solid, 1));
+            ASSERT_TRUE(report);
+            expect_valid(*mesh, std::min(before, 0.2));
+            EXPECT_LE(report->mean_distance, report->mean_distance_before);
+        }
+    }
+}
+
+TEST(Fit, DrawsInterfacesOntoTheirSurface) {
+    // A ball in a ball: the nodes between the two materials go to the inner sphere.
+    const std::vector<mesh::Mesh> solids{mesh::icosphere(1, 12), mesh::icosphere(0.5, 12)};
+    Result<Built> built = build(solids, {.precision = 0.1, .layers = 1, .keep = Keep::half});
+    ASSERT_TRUE(built);
+    const Result<FitReport> report = fit(built->mesh, solids);
+    ASSERT_TRUE(report);
+    expect_valid(built->mesh, 0.2);
+    EXPECT_LT(report->mean_distance, 0.01);
+}
+
+TEST(Fit, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
+    const mesh::Mesh solid = mesh::displaced_sphere(10);
+    Result<Built> a = build(std::span(&solid, 1), {.level = 4, .layers = 1, .keep = Keep::half});
+    ASSERT_TRUE(a);
+    mesh::HexMesh b = a->mesh, c = a->mesh;
+    Context one, two, stopped;
+    one.threads = 1, two.threads = 2;
+    ASSERT_TRUE(fit(a->mesh, std::span(&solid, 1), {}, one) && fit(b, std::span(&solid, 1), {}, two));
+    EXPECT_EQ(a->mesh.positions, b.positions);
+    const std::atomic<bool> cancel = true;
+    stopped.cancel = &cancel;
+    const Result<FitReport> cancelled = fit(c, std::span(&solid, 1), {}, stopped);
+    ASSERT_FALSE(cancelled);
+    EXPECT_EQ(cancelled.error().code, ErrorCode::cancelled);
+}
+
+}  // namespace
+}  // namespace octavo::hexmesh
