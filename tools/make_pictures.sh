@@ -22,4 +22,12 @@ octavo render "$scratch/gear.oct" -o docs/pictures/gear-cells.png --cut z:0.5 --
 for depth in 5 6 7; do
     octavo render "$scratch/housing-$depth.oct" -o docs/pictures/housing-cells-$depth.png --cut x --size 800x600
 done
+
+octavo shape knot --detail 200 -o "$scratch/knot.ply"
+octavo build "$scratch/knot.ply" -o "$scratch/knot.bpo"
+octavo render "$scratch/knot.ply" -o docs/pictures/knot.png --size 400x300
+for level in 0 1 2 3; do
+    octavo convert "$scratch/knot.bpo" "$scratch/level.ply" --level $level
+    octavo render "$scratch/level.ply" -o docs/pictures/knot-level-$level.png --size 400x300
+done
 ls -sh docs/pictures

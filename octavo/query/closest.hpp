@@ -38,10 +38,11 @@ struct Closest {
 };
 
 struct ClosestOptions {
-    /// Without a sign distances are positive everywhere, the mesh may be open, and a third of memory is saved.
+    /// Without a sign distances are positive everywhere, the mesh may be open, and half of the memory is saved.
     enum class Sign : std::uint8_t { inside_negative, none };
     Sign sign = Sign::inside_negative;
-    InsideOptions inside;
+    /// The sign costs a twentieth of the distance, so it may take a third longer for a third less memory.
+    InsideOptions inside{.leaf_facets = 8};
 };
 
 class ClosestQuery {
