@@ -65,7 +65,6 @@ Result<std::vector<mesh::Mesh>> read_operands(Session& session, const Context& c
                                               const BooleanOptions& options) {
     std::vector<mesh::Mesh> operands;
     for (const std::string& path : options.operands) {
-        if (same_file(path, options.output)) return would_overwrite(path);
         Result<io::ReadMesh> read = read_mesh(session, context, path);
         if (!read) return std::move(read).error();
         operands.push_back(std::move(read->mesh));
@@ -79,8 +78,7 @@ Result<std::vector<mesh::Mesh>> read_operands(Session& session, const Context& c
                 found = true;
             }
         if (!found)
-            return Error{
-                ErrorCode::bad_input, "--transform names " + transform.file + ", which is no operand", {}};
+            return session.usage_error("--transform names " + transform.file + ", which is no operand");
     }
     return operands;
 }
@@ -102,12 +100,16 @@ void tell(Session& session, const boolean::Evaluated& evaluated, const std::stri
                       {"largest_displacement", report.largest_displacement},
                       {"largest_rounding", report.largest_rounding},
                       {"inverted_facets", report.inverted_facets}};
-    session.text = fmt::format("{}: {} triangles, volume {:.10g}, area {:.10g}\n", output,
-                               grouped(evaluated.mesh.triangles.size()), measures.volume, measures.area);
+    session.text = fmt::format("{}: {} triangles, volume {}, area {}\n", output,
+                               grouped(evaluated.mesh.triangles.size()), number_text(measures.volume),
+                               number_text(measures.area));
 }
 
 Result<ExitCode> evaluate(Session& session, const BooleanOptions& options, Operation operation) {
     const Context context = session.context();
+    const Result<std::string> format =
+        settle_output(session, options.operands, options.output, options.format, mesh_outputs());
+    if (!format) return format.error();
     Result<std::vector<mesh::Mesh>> operands = read_operands(session, context, options);
     if (!operands) return std::move(operands).error();
     boolean::Options evaluating;
@@ -115,9 +117,8 @@ Result<ExitCode> evaluate(Session& session, const BooleanOptions& options, Opera
     Result<boolean::Evaluated> evaluated =
         session.timed("evaluate", [&] { return operation(*operands, evaluating, context); });
     if (!evaluated) return std::move(evaluated).error();
-    io::WriteOptions writing;
-    writing.format = options.format;
-    Result<io::WriteReport> written = write_mesh(session, context, options.output, evaluated->mesh, writing);
+    Result<io::WriteReport> written =
+        write_mesh(session, context, options.output, evaluated->mesh, {.format = *format});
     if (!written) return std::move(written).error();
     tell(session, *evaluated, options.output);
     return ExitCode::ok;
@@ -129,17 +130,18 @@ void add_operation(Program& program, const char* name, const char* summary, Oper
         return evaluate(session, *options, operation);
     });
     verb->add_option("FILES", options->operands, "Closed meshes, two or more")->required()->type_name("FILE");
-    verb->add_option("-o,--output", options->output, "The mesh to write; - is stdout")
+    verb->add_option("-o,--output", options->output,
+                     "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")
         ->required()
         ->type_name("FILE");
     verb->add_option("--transform", options->transforms,
                      "FILE:m0,m1,…: moves an operand by a matrix of 12 or 16 numbers, row-major")
         ->check(check_transform)
         ->type_name("FILE:MATRIX");
-    verb->add_option("--simplify", options->simplify,
-                     "What happens to cut facets in one plane: coplanar merges, none leaves them")
-        ->check(CLI::IsMember({"none", "coplanar"}))
-        ->type_name("KIND");
+    take_one_of(
+        verb->add_option("--simplify", options->simplify,
+                         "What happens to cut facets in one plane: coplanar merges, none leaves them"),
+        {"none", "coplanar"});
     verb->add_option("--to", options->format, "Format of the output, instead of by its extension")
         ->type_name("FORMAT");
 }
