@@ -243,6 +243,8 @@ TEST(OpenscadCsg, SaysWhatIsWrongAndWhere) {
          ErrorCode::not_a_solid, 1, 1, "do not close"},
         {"rotate_extrude() { square(1, center = true); }", ErrorCode::bad_input, 1, 1, "both sides"},
         {"123", ErrorCode::bad_input, 1, 1, "name of a node"},
+        // The first of several.
+        {"union() {\n cube(size = nan);\n sphere(r = inf);\n}", ErrorCode::bad_input, 2, 7, "finite"},
         {"cube", ErrorCode::bad_input, 1, 5, "expected '('"},
         {"cube(", ErrorCode::bad_input, 1, 6, "ends"},
         {"\xFF\xFE\x00", ErrorCode::bad_input, 1, 1, "name of a node"},
@@ -262,8 +264,8 @@ TEST(OpenscadCsg, SkippingWhatIsUnsupportedLeavesWarnings) {
         "union() {\n\ttext(text = \"a);\", size = 3);\n\tcube(2);\n\timport(file = \"no.stl\");\n}",
         facets(true));
     ASSERT_EQ(file.warnings.size(), 2U);
-    EXPECT_NE(file.warnings[1].find("line 2, column 2"), std::string::npos) << file.warnings[1];
-    EXPECT_NE(file.warnings[0].find("line 4, column 2"), std::string::npos) << file.warnings[0];
+    EXPECT_NE(file.warnings[0].find("line 2, column 2"), std::string::npos) << file.warnings[0];
+    EXPECT_NE(file.warnings[1].find("line 4, column 2"), std::string::npos) << file.warnings[1];
     EXPECT_NEAR(csg::tight_bounds(file.expression)->high.x, 2, 1e-12);
 }
 
