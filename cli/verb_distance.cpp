@@ -6,6 +6,7 @@
 
 #include "point_query.hpp"
 #include <octavo/query/closest.hpp>
+#include <octavo/query/envelope_distance.hpp>
 
 // `octavo distance MODEL POINTS`: for each point its signed distance from the surface, negative inside, and the nearest
 // point and triangle of the surface.
@@ -15,6 +16,8 @@ namespace {
 
 struct DistanceOptions : PointQueryOptions {
     bool is_unsigned = false;
+    int level = exact;
+    static constexpr int exact = -1;  ///< no level: the exact distance
 };
 
 /// The answers as columns of numbers.
@@ -58,6 +61,22 @@ Result<Columns> answers_of(Session& session, const Context& context, const Dista
     });
 }
 
+/// Lower bounds from one level of a BP-octree, of which the beginning is enough.
+Result<Columns> bounds_of(Session& session, const Context& context, const DistanceOptions& options) {
+    const Result<std::vector<Vec3>> points = read_points(session, context, options, "so are their distances");
+    if (!points) return points.error();
+    bp_octree::ReadBpoOptions reading;
+    reading.levels = options.level;
+    reading.partial = bp_octree::ReadBpoOptions::Partial::accept;
+    Result<bp_octree::ReadBpo> file = read_bp_octree(session, context, options.model, reading);
+    if (!file) return std::move(file).error();
+    Columns columns;
+    columns.distance = session.timed(
+        "query", [&] { return query::EnvelopeDistance(file->tree, options.level)(*points, context); });
+    if (context.cancelled()) return Context::cancelled_error();
+    return columns;
+}
+
 /// min, max and mean of what is finite; null when nothing is.
 Json summary_of(const std::vector<double>& distances) {
     double least = INFINITY, most = -INFINITY, sum = 0;
@@ -81,7 +100,11 @@ Result<ExitCode> distance(Session& session, const DistanceOptions& options) {
     const Context context = session.context();
     const Result<AnswerOutput> output = settle_answers(session, options);
     if (!output) return output.error();
-    const Result<Columns> answers = answers_of(session, context, options);
+    const bool is_bound = options.level != DistanceOptions::exact;
+    if (is_bound && kind_of(options.model, options.model_format) != ModelKind::bp_octree)
+        return Error{ErrorCode::unsupported, "only BP-octrees (.bpo) have levels", {}};
+    const Result<Columns> answers =
+        is_bound ? bounds_of(session, context, options) : answers_of(session, context, options);
     if (!answers) return answers.error();
     const Columns& columns = *answers;
     session.result = summary_of(columns.distance);
@@ -92,12 +115,14 @@ Result<ExitCode> distance(Session& session, const DistanceOptions& options) {
                           number_text(session.result["min"].get<double>()),
                           number_text(session.result["max"].get<double>()),
                           number_text(session.result["mean"].get<double>()));
-    Status status = deliver(session, context, *output,
-                            {{"distance", std::span<const double>(columns.distance)},
-                             {"x", std::span<const double>(columns.x)},
-                             {"y", std::span<const double>(columns.y)},
-                             {"z", std::span<const double>(columns.z)},
-                             {"triangle", std::span<const std::uint32_t>(columns.triangle)}});
+    std::vector<io::Column> told{{"distance", std::span<const double>(columns.distance)}};
+    if (!is_bound) {
+        told.push_back({"x", std::span<const double>(columns.x)});
+        told.push_back({"y", std::span<const double>(columns.y)});
+        told.push_back({"z", std::span<const double>(columns.z)});
+        told.push_back({"triangle", std::span<const std::uint32_t>(columns.triangle)});
+    }
+    Status status = deliver(session, context, *output, told);
     if (!status) return std::move(status).error();
     return ExitCode::ok;
 }
@@ -114,6 +139,12 @@ void add_distance(Program& program) {
         "A closed mesh, a CSG tree (.csg), the black cells of an octree (.oct), or a BP-octree (.bpo)",
         "distance, x, y, z and triangle");
     verb->add_flag("--unsigned", options->is_unsigned, "Distances without a sign; the surface may be open")
+        ->excludes(open);
+    verb->add_option("--level", options->level,
+                     "For .bpo: lower bounds by the envelopes of this level, 0 within; needs only the file's "
+                     "beginning")
+        ->check(CLI::Range(0, bp_octree::max_depth))
+        ->type_name("L")
         ->excludes(open);
 }
 
