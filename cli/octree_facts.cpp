@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "number_text.hpp"
+#include "model.hpp"
 
 namespace octavo::cli {
 namespace {
@@ -16,7 +16,7 @@ double cell_size(const octree::Octree& tree) {
 
 }  // namespace
 
-Json json_of(const octree::Octree& tree, const TreeFile& file) {
+Json json_of(const octree::Octree& tree, std::size_t file_bytes) {
     const octree::OctreeStats stats = tree.stats();
     Json levels = Json::array();
     for (int level = 0; level <= stats.deepest; ++level) {
@@ -27,8 +27,7 @@ Json json_of(const octree::Octree& tree, const TreeFile& file) {
                           {"gray", one.gray},
                           {"split", one.split}});
     }
-    return {{"format", file.format},
-            {"depth", tree.depth()},
+    return {{"depth", tree.depth()},
             {"leaves", stats.leaves()},
             {"white", stats.white},
             {"black", stats.black},
@@ -37,11 +36,11 @@ Json json_of(const octree::Octree& tree, const TreeFile& file) {
             {"volume_lower", octree::world_volume(tree.lattice(), stats.black_volume)},
             {"volume_upper", octree::world_volume(tree.lattice(), stats.black_volume + stats.gray_volume)},
             {"cell_size", cell_size(tree)},
-            {"bytes", file.bytes},
+            {"bytes", file_bytes},
             {"levels", levels}};
 }
 
-std::string text_of(const octree::Octree& tree, const TreeFile& file) {
+std::string text_of(const octree::Octree& tree, std::size_t file_bytes) {
     const octree::OctreeStats stats = tree.stats();
     std::string text =
         fmt::format("{:>5} {:>13} {:>13} {:>13} {:>13}\n", "level", "white", "black", "gray", "split");
@@ -52,15 +51,13 @@ std::string text_of(const octree::Octree& tree, const TreeFile& file) {
     }
     const double lower = octree::world_volume(tree.lattice(), stats.black_volume);
     const double upper = octree::world_volume(tree.lattice(), stats.black_volume + stats.gray_volume);
-    text += fmt::format("leaves     {} ({} white, {} black, {} gray), smallest cell {}\n",
+    text += fmt::format("leaves     {} ({} white, {} black, {} gray), smallest cell {:.6g}\n",
                         grouped(stats.leaves()), grouped(stats.white), grouped(stats.black),
-                        grouped(stats.gray), number_text(cell_size(tree)));
-    text += fmt::format("volume     between {} and {}\n", number_text(lower, upper), number_text(upper));
-    text += fmt::format("size       {} bytes of {}", grouped(file.bytes), file.format);
-    if (file.format == "oct")
-        text += fmt::format(", {:.2f} bits a node",
-                            8.0 * static_cast<double>(file.bytes) / static_cast<double>(stats.nodes()));
-    return text + "\n";
+                        grouped(stats.gray), cell_size(tree));
+    text += fmt::format("volume     between {:.10g} and {:.10g}\n", lower, upper);
+    text += fmt::format("size       {} bytes, {:.2f} bits a node\n", grouped(file_bytes),
+                        8.0 * static_cast<double>(file_bytes) / static_cast<double>(stats.nodes()));
+    return text;
 }
 
 }  // namespace octavo::cli

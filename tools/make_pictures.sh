@@ -30,4 +30,9 @@ for level in 0 1 2 3; do
     octavo convert "$scratch/knot.bpo" "$scratch/level.ply" --level $level
     octavo render "$scratch/level.ply" -o docs/pictures/knot-level-$level.png --size 400x300
 done
+octavo shape sphere --detail 48 --size 0.65 -o "$scratch/ball.ply"
+octavo shape menger --detail 3 -o "$scratch/sponge.ply"
+octavo intersection "$scratch/sponge.ply" "$scratch/ball.ply" -o "$scratch/cut.ply" \
+    --transform "$scratch/ball.ply:1,0,0,0.5,0,1,0,0.5,0,0,1,0.5"
+octavo render "$scratch/cut.ply" -o docs/pictures/boolean.png --azimuth 35 --elevation 25 --edges sharp --size 600x500
 ls -sh docs/pictures

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -8,28 +9,27 @@
 
 #include <sys/resource.h>
 
+#include "../peers/peak_memory.hpp"
 #include <octavo/boolean/evaluate.hpp>
+#include <octavo/exact/counters.hpp>
 #include <octavo/io/read.hpp>
+#include <octavo/io/write.hpp>
 
 // One set operation on mesh files, timed from arrays in memory to an indexed mesh in memory, as a line of JSON.
-//   octavo_boolean_scene [--repeat N] [--threads N] [--simplify none] union|intersection|difference|xor FILE...
-// CPU seconds (user and system) are the median of the repetitions; phases are wall seconds of the last one.
+//   octavo_boolean_scene [--repeat N] [--threads N] [--simplify none] [--output FILE]
+//                        union|intersection|difference|xor FILE...
+// User CPU and wall seconds are the least of the repetitions; phases are wall seconds of the last one.
 
 namespace {
 
-double cpu_seconds() {
+double user_seconds() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& time) {
-        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
 }
 
-double peak_megabytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
+double wall_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 double volume_of(const octavo::mesh::Mesh& mesh) {
@@ -43,12 +43,14 @@ double volume_of(const octavo::mesh::Mesh& mesh) {
 
 int main(int argc, char** argv) {
     int repeat = 5, at = 1;
+    const char* output = nullptr;
     octavo::Context context;
     context.threads = 1;
     octavo::boolean::Options options;
     for (; at + 1 < argc && std::strncmp(argv[at], "--", 2) == 0; at += 2) {
         if (std::strcmp(argv[at], "--repeat") == 0) repeat = std::max(1, std::atoi(argv[at + 1]));
         if (std::strcmp(argv[at], "--threads") == 0) context.threads = std::atoi(argv[at + 1]);
+        if (std::strcmp(argv[at], "--output") == 0) output = argv[at + 1];
         if (std::strcmp(argv[at], "--simplify") == 0 && std::strcmp(argv[at + 1], "none") == 0)
             options.simplify = octavo::boolean::Simplify::none;
     }
@@ -68,19 +70,24 @@ int main(int argc, char** argv) {
         }
         operands.push_back(std::move(read->mesh));
     }
-    const double loaded = peak_megabytes();
-    std::vector<double> seconds;
+    const octavo::bench::PeakMemory memory;
+    double seconds = 1e300, wall = 1e300, peak = 0;
     octavo::boolean::Report report;
+    octavo::exact::PredicateCounts decided;
     std::size_t triangles = 0, vertices = 0;
     double volume = 0;
     for (int run = 0; run < repeat; ++run) {
-        const double start = cpu_seconds();
+        const double start = user_seconds(), wall_start = wall_seconds();
+        const octavo::exact::PredicateCounts counts = octavo::exact::predicate_counts();
         const auto result =
             operation == "union"          ? octavo::boolean::unite(operands, options, context)
             : operation == "intersection" ? octavo::boolean::intersect(operands, options, context)
             : operation == "difference"   ? octavo::boolean::subtract(operands, options, context)
                                           : octavo::boolean::symmetric_difference(operands, options, context);
-        seconds.push_back(cpu_seconds() - start);
+        seconds = std::min(seconds, user_seconds() - start);
+        wall = std::min(wall, wall_seconds() - wall_start);
+        if (run == 0) peak = memory.megabytes();
+        decided = octavo::exact::predicate_counts() - counts;
         if (!result) {
             std::printf("{\"error\": \"%s\"}\n", result.error().describe().c_str());
             return 1;
@@ -89,15 +96,18 @@ int main(int argc, char** argv) {
         triangles = result->mesh.triangles.size();
         vertices = result->mesh.vertices.size();
         volume = volume_of(result->mesh);
+        if (output && run + 1 == repeat && !octavo::io::write_mesh(output, result->mesh)) return 3;
     }
-    std::sort(seconds.begin(), seconds.end());
     std::printf(
-        "{\"cpu\": %.6f, \"triangles\": %zu, \"vertices\": %zu, \"volume\": %.15g, \"input\": %zu, "
-        "\"loaded_mb\": %.1f, \"peak_mb\": %.1f, \"pairs\": %zu, \"cut\": %zu, \"pieces\": %zu, "
-        "\"patches\": %zu, \"components\": %zu, \"exact\": %zu, \"inverted\": %zu, \"phases\": {",
-        seconds[seconds.size() / 2], triangles, vertices, volume, report.input_triangles, loaded,
-        peak_megabytes(), report.pairs_tested, report.cut_facets, report.pieces, report.patches,
-        report.components, report.exact_fallbacks, report.inverted_facets);
+        "{\"cpu\": %.6f, \"wall\": %.6f, \"triangles\": %zu, \"vertices\": %zu, \"volume\": %.15g, "
+        "\"input\": %zu, "
+        "\"peak_mb\": %.1f, \"pairs\": %zu, \"cut\": %zu, \"pieces\": %zu, "
+        "\"patches\": %zu, \"components\": %zu, \"exact\": %llu, \"decisions\": %llu, \"inverted\": %zu, "
+        "\"phases\": {",
+        seconds, wall, triangles, vertices, volume, report.input_triangles, peak, report.pairs_tested,
+        report.cut_facets, report.pieces, report.patches, report.components,
+        static_cast<unsigned long long>(decided.exact()),
+        static_cast<unsigned long long>(decided.exact() + decided.filtered()), report.inverted_facets);
     for (std::size_t i = 0; i < report.phases.size(); ++i)
         std::printf("%s\"%s\": %.4f", i ? ", " : "", report.phases[i].name, report.phases[i].seconds);
     std::printf("}}\n");

@@ -183,9 +183,8 @@ std::size_t separate_pairs(const std::vector<Pair>& pairs, const Surface& surfac
 }
 
 /// Facets with constructed corners whose rounded normal no longer agrees with their plane.
-std::size_t count_inverted(const Surface& surface, const Soup& soup, const PointTable& points,
-                           const mesh::Mesh& mesh) {
-    std::size_t count = 0;
+void find_inverted(const Surface& surface, const Soup& soup, const PointTable& points, Assembled& result) {
+    const mesh::Mesh& mesh = result.mesh;
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
         const mesh::Triangle& ids = surface.triangles[i];
         if (points.is_vertex(ids[0]) && points.is_vertex(ids[1]) && points.is_vertex(ids[2])) continue;
@@ -195,9 +194,10 @@ std::size_t count_inverted(const Surface& surface, const Soup& soup, const Point
             cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
         const Vec3 expected{static_cast<double>(plane.a()), static_cast<double>(plane.b()),
                             static_cast<double>(plane.c())};
-        count += !(dot(normal, expected) > 0);
+        if (dot(normal, expected) > 0) continue;
+        ++result.inverted_facets;
+        if (result.first_inverted.size() < 8) result.first_inverted.push_back(static_cast<std::uint32_t>(i));
     }
-    return count;
 }
 
 }  // namespace
@@ -224,7 +224,7 @@ Assembled assemble(const Surface& surface, const Soup& soup, const PointTable& p
     result.mesh.sources.reserve(surface.triangles.size());
     for (const Surface::Facet& facet : surface.facets)
         result.mesh.sources.push_back(soup.source(facet.soup_facet));
-    result.inverted_facets = count_inverted(surface, soup, points, result.mesh);
+    find_inverted(surface, soup, points, result);
     result.split_edges = separate_pairs(splitter.pairs, surface, result.mesh);
     return result;
 }

@@ -23,7 +23,8 @@ namespace octavo::boolean {
 struct Assembled {
     mesh::Mesh mesh;
     double largest_rounding = 0;  ///< how far rounding may have moved a constructed vertex, in world units
-    std::size_t inverted_facets = 0;  ///< turned over or made flat by rounding
+    std::size_t inverted_facets = 0;            ///< turned over or made flat by rounding
+    std::vector<std::uint32_t> first_inverted;  ///< up to 8 of them
     std::size_t duplicated_vertices = 0;
     std::size_t split_edges = 0;  ///< doubled edges that needed a vertex of their own
 };

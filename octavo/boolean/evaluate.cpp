@@ -41,19 +41,25 @@ void note_input(const Soup& soup, Report& report) {
     report.flat_facets = soup.flat_facets;
     report.moved_vertices = soup.moved_vertices;
     report.largest_displacement = soup.largest_displacement;
-    if (soup.flat_facets > 0)
-        report.warnings.push_back(std::to_string(soup.flat_facets) +
-                                  " facets have no area on the lattice and were dropped");
+    report.closing_facets = soup.closing_facets;
+    report.warnings = soup.warnings;
 }
 
 void note_output(const Assembled& assembled, Report& report) {
     report.largest_rounding = assembled.largest_rounding;
     report.inverted_facets = assembled.inverted_facets;
+    report.first_inverted = assembled.first_inverted;
     report.duplicated_vertices = assembled.duplicated_vertices;
     if (assembled.mesh.triangles.empty()) report.warnings.push_back("the result is empty");
-    if (assembled.inverted_facets > 0)
+    if (assembled.inverted_facets > 0) {
+        std::string ids;
+        for (const std::uint32_t facet : assembled.first_inverted)
+            ids += (ids.empty() ? "" : ", ") + std::to_string(facet);
         report.warnings.push_back("rounding to doubles turned over or flattened " +
-                                  std::to_string(assembled.inverted_facets) + " facets");
+                                  std::to_string(assembled.inverted_facets) +
+                                  " facets of the result: " + ids +
+                                  (assembled.inverted_facets > assembled.first_inverted.size() ? ", …" : ""));
+    }
 }
 
 }  // namespace
@@ -66,7 +72,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     const std::uint64_t exact_before = exact::predicate_counts().exact();
 
     phases.begin("snap", 0.0);
-    Result<Soup> soup = make_soup(operands, context);
+    Result<Soup> soup = make_soup(operands, options.open, context);
     if (!soup) return soup.error();
     note_input(*soup, report);
 

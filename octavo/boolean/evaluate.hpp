@@ -9,6 +9,7 @@
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
 #include <octavo/boolean/program.hpp>
+#include <octavo/boolean/soup.hpp>
 #include <octavo/mesh/mesh.hpp>
 
 // Exact set operations on solids bounded by triangle meshes: a whole expression of any number of operands in one
@@ -36,6 +37,7 @@ enum class Simplify : std::uint8_t {
 
 struct Options {
     Simplify simplify = Simplify::coplanar;
+    OpenOperands open = OpenOperands::reject;
 };
 
 struct Report {
@@ -43,6 +45,7 @@ struct Report {
     std::size_t input_triangles = 0;
     std::size_t coincident_facets = 0;  ///< merged with another facet before anything else
     std::size_t flat_facets = 0;        ///< had no area on the lattice
+    std::size_t closing_facets = 0;     ///< added to close open operands
     std::size_t moved_vertices = 0;     ///< by snapping
     double largest_displacement = 0;    ///< by snapping, in world units
     std::size_t pairs_tested = 0;       ///< facet against facet
@@ -50,10 +53,11 @@ struct Report {
     std::size_t pieces = 0;  ///< of the cut facets
     std::size_t constructed_points = 0;
     std::size_t patches = 0;
-    std::size_t components = 0;       ///< each located by one exact ray
-    std::size_t exact_fallbacks = 0;  ///< predicates that the floating-point filter left undecided
-    double largest_rounding = 0;      ///< of an exact point on export, in world units
-    std::size_t inverted_facets = 0;  ///< turned over or made flat by rounding on export
+    std::size_t components = 0;                 ///< each located by one exact ray
+    std::size_t exact_fallbacks = 0;            ///< predicates that the floating-point filter left undecided
+    double largest_rounding = 0;                ///< of an exact point on export, in world units
+    std::size_t inverted_facets = 0;            ///< turned over or made flat by rounding on export
+    std::vector<std::uint32_t> first_inverted;  ///< up to 8 of them, as triangles of the result
     std::size_t duplicated_vertices = 0;
     bool closed = true;
     bool manifold = true;
@@ -73,7 +77,7 @@ struct Evaluated {
 };
 
 /// Evaluates `program` over closed meshes; operand k of the program is `operands[k]`.
-/// Errors: not_a_solid when an operand is open or inconsistently oriented (with facet ids), bad_input when a mesh
+/// Errors: not_a_solid when an operand is open or inconsistently oriented and `open` rejects that (with facet ids), bad_input when a mesh
 /// is malformed or the result unbounded, limit when the operands have no common lattice, cancelled.
 Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Program& program,
                            const Options& options = {}, const Context& context = {});

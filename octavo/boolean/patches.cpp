@@ -27,7 +27,7 @@ struct CornerTable {
 CornerTable corners_by_point(const Complex& complex, std::size_t points, const Context& context) {
     CornerTable table;
     table.begin.assign(points + 1, 0);
-    const std::size_t range = context.threads == 1 ? points : points / 4 + 1;
+    const std::size_t range = context.threads == 1 ? points + 1 : points / 4 + 1;
     const auto for_each_corner = [&](std::size_t first, std::size_t last, const auto& visit) {
         for (std::uint32_t triangle = 0; triangle < complex.size(); ++triangle) {
             if (!complex.exists(triangle)) continue;

@@ -74,19 +74,20 @@ void Indicator::set(std::uint32_t operand, bool inside) {
 }
 
 void Indicator::change(Program::NodeId operand, bool inside) {
-    // Depth first with an explicit stack: expressions may be a million levels deep.
+    // Depth first with an explicit stack: expressions may be a million levels deep. Each change goes up with its
+    // direction: an operand that stands twice in one gate may turn it on and off before either change is passed on.
     value_[operand] = inside;
-    changed_.assign(1, operand);
+    changed_.assign(1, {operand, inside});
     while (!changed_.empty()) {
-        const Program::NodeId node = changed_.back();
+        const auto [node, value] = changed_.back();
         changed_.pop_back();
         for (const std::uint32_t parent : program_.nodes_[node].parents) {
             const bool negated = parent % 2 != 0;
-            true_inputs_[parent / 2] += (value_[node] != 0) != negated ? 1u : ~0u;
+            true_inputs_[parent / 2] += value != negated ? 1u : ~0u;
             const bool now = evaluate(parent / 2);
             if ((value_[parent / 2] != 0) == now) continue;
             value_[parent / 2] = now;
-            changed_.push_back(parent / 2);
+            changed_.push_back({parent / 2, now});
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 // A set expression over numbered operands, in the form in which classification evaluates it.
@@ -66,7 +67,7 @@ class Indicator {
     const Program& program_;
     std::vector<std::uint32_t> true_inputs_;
     std::vector<char> value_;
-    std::vector<Program::NodeId> changed_;
+    std::vector<std::pair<Program::NodeId, bool>> changed_;  ///< and what they have become
 };
 
 }  // namespace octavo::boolean

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/boolean/closing.hpp>
 #include <octavo/boolean/soup.hpp>
 #include <octavo/boolean/weld.hpp>
 #include <octavo/exact/orient.hpp>
@@ -215,9 +217,34 @@ void merge_coincident(Soup& soup) {
     if (!dropped.empty()) drop_facets(dropped, soup);
 }
 
+/// Operands that are a few units across lose their shape, and vanish below one unit; that is never silent.
+void warn_of_small_operands(std::span<const mesh::Mesh* const> operands, Soup& soup) {
+    constexpr double few_units = 4096;
+    std::string names;
+    std::size_t count = 0;
+    double least = few_units;
+    for (std::size_t operand = 0; operand < operands.size(); ++operand) {
+        Box3 bounds;
+        for (const Vec3& vertex : operands[operand]->vertices) bounds.add(vertex);
+        if (bounds.empty()) continue;
+        const Vec3 extents = bounds.extents();
+        const double units = std::max({extents.x, extents.y, extents.z}) / soup.lattice.unit();
+        if (units >= few_units) continue;
+        least = std::min(least, units);
+        if (count++ < 4) names += (names.empty() ? "" : ", ") + std::to_string(operand);
+    }
+    if (count == 0) return;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", least);
+    soup.warnings.push_back((count == 1 ? "operand " : "operands ") + names +
+                            (count > 4 ? " and others" : "") + " are small beside the whole: " + text +
+                            " lattice units across, so shapes are rounded or vanish; split the job or scale");
+}
+
 }  // namespace
 
-Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, const Context& context) {
+Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands open,
+                       const Context& context) {
     Soup soup;
     Result<exact::Lattice> lattice = joint_lattice(operands);
     if (!lattice) return lattice.error();
@@ -241,6 +268,19 @@ Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, const Contex
     const Status added = add_facets(operands, triangles, vertices, welded.point_of, soup, context);
     if (!added) return added.error();
     if (context.cancelled()) return Context::cancelled_error();
+    if (soup.flat_facets > 0)
+        soup.warnings.push_back(std::to_string(soup.flat_facets) +
+                                " facets have no area on the lattice and were dropped");
+    warn_of_small_operands(operands, soup);
+    if (open == OpenOperands::winding) {
+        const Closing closing = close_operands(soup);
+        soup.closing_facets = closing.added_facets;
+        if (!closing.operands.empty())
+            soup.warnings.push_back(
+                std::to_string(closing.operands.size()) + " operands are open, the first is operand " +
+                std::to_string(closing.operands[0]) + ": " + std::to_string(closing.open_sides) +
+                " open sides were closed by " + std::to_string(closing.added_facets) + " facets");
+    }
     merge_coincident(soup);
     return soup;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <octavo/base/context.hpp>
@@ -24,6 +25,12 @@ namespace octavo::boolean {
 
 inline constexpr std::uint32_t no_index = ~std::uint32_t{0};
 
+/// What happens to operands that do not close.
+enum class OpenOperands : std::uint8_t {
+    reject,   ///< an error names the facets at open edges
+    winding,  ///< holes are closed by cones (closing.hpp), so that winding numbers exist
+};
+
 struct Soup {
     exact::Lattice lattice;
     std::vector<exact::Point> points;
@@ -37,12 +44,15 @@ struct Soup {
     std::size_t moved_vertices = 0;     ///< not on the lattice before
     std::size_t flat_facets = 0;        ///< dropped: no area on the lattice
     std::size_t coincident_facets = 0;  ///< merged into another facet
+    std::size_t closing_facets = 0;     ///< added to close operands
+    std::vector<std::string> warnings;
 
     mesh::Source source(std::uint32_t facet) const;
 };
 
 /// Errors: bad_input when a vertex is not finite or a corner out of range; limit when there are too many facets
-/// or the operands' sizes and positions have no common lattice.
-Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, const Context& context = {});
+/// or the operands' sizes and positions have no common lattice. Warns of operands that the lattice is too coarse for.
+Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands open,
+                       const Context& context);
 
 }  // namespace octavo::boolean

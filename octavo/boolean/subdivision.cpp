@@ -97,7 +97,10 @@ Sign Subdivision::turn(VertexId a, VertexId b, VertexId c) const {
     const double determinant = ux * vy - uy * vx;
     const double sum = (std::fabs(ux) + std::fabs(uy)) + (std::fabs(vx) + std::fabs(vy));
     constexpr double e = 0x1p-21;
-    if (std::fabs(determinant) > 2 * e * (sum + e)) return determinant > 0 ? Sign::positive : Sign::negative;
+    if (std::fabs(determinant) > 2 * e * (sum + e)) {
+        exact::count_filtered(exact::Predicate::orient_in_plane);
+        return determinant > 0 ? Sign::positive : Sign::negative;
+    }
     if (share_line(p, q, r)) return Sign::zero;
     return exact_turn(p, q, r);
 }

@@ -209,6 +209,18 @@ TEST(Evaluate, ReturnsNothingForASolidWithoutItself) {
     EXPECT_EQ(result->report.warnings, std::vector<std::string>{"the result is empty"});
 }
 
+TEST(Evaluate, TakesEmptyOperands) {
+    Context one_thread;
+    one_thread.threads = 1;
+    for (const Context& context : {Context{}, one_thread}) {
+        const std::vector<mesh::Mesh> nothing(2), something{mesh::Mesh{}, cube(0, 0, 0)};
+        const Result<Evaluated> none = unite(nothing, {}, context), some = unite(something, {}, context);
+        ASSERT_TRUE(none && some);
+        EXPECT_TRUE(none->mesh.triangles.empty());
+        EXPECT_EQ(some->mesh.triangles.size(), 12U);
+    }
+}
+
 TEST(Evaluate, ReturnsTheSolidForItsUnionWithItself) {
     const std::vector<mesh::Mesh> same{cube(0, 0, 0), cube(0, 0, 0), cube(0, 0, 0)};
     const Result<Evaluated> result = unite(same);
@@ -288,6 +300,81 @@ TEST(Evaluate, RefusesOpenOperandsAndNamesTheFacets) {
     mesh::Mesh turned = cube(0, 0, 0);
     std::swap(turned.triangles[3][0], turned.triangles[3][1]);
     EXPECT_EQ(unite(std::vector<mesh::Mesh>{turned}).error().code, ErrorCode::not_a_solid);
+}
+
+/// The cube with some facets missing.
+mesh::Mesh open_cube(std::initializer_list<std::size_t> missing) {
+    mesh::Mesh open = cube(0, 0, 0, 2);
+    std::vector<mesh::Triangle> kept;
+    for (std::size_t i = 0; i < open.triangles.size(); ++i)
+        if (std::find(missing.begin(), missing.end(), i) == missing.end()) kept.push_back(open.triangles[i]);
+    open.triangles = kept;
+    return open;
+}
+
+TEST(Evaluate, ClosesHolesOfOpenOperandsWhenAsked) {
+    const Options closing{.open = OpenOperands::winding};
+    for (const mesh::Mesh& open :
+         {open_cube({0}), open_cube({0, 1}), open_cube({0, 1, 2, 3}), open_cube({3, 8})}) {
+        EXPECT_FALSE(unite({&open, 1}));
+        const Result<Evaluated> closed = unite({&open, 1}, closing);
+        ASSERT_TRUE(closed) << closed.error().describe();
+        EXPECT_EQ(tests::manifold_defect(closed->mesh), "");
+        EXPECT_GT(closed->report.closing_facets, 0U);
+        ASSERT_EQ(closed->report.warnings.size(), 1U);
+        const std::vector<mesh::Mesh> pair{open, cube(1, 1, 1, 4)};
+        const Result<Evaluated> both = intersect(pair, closing), either = unite(pair, closing);
+        ASSERT_TRUE(both && either);
+        EXPECT_NEAR(tests::volume_of(both->mesh) + tests::volume_of(either->mesh),
+                    tests::volume_of(closed->mesh) + 64, 1e-9);
+    }
+    // A flat rim is closed by its polygon: a lid that is missing comes back.
+    const mesh::Mesh lidless = open_cube({0, 1});
+    EXPECT_NEAR(tests::volume_of(unite({&lidless, 1}, closing)->mesh), 8, 1e-12);
+    // Closed operands are left alone.
+    const mesh::Mesh whole = cube(0, 0, 0);
+    const Result<Evaluated> same = unite({&whole, 1}, closing);
+    ASSERT_TRUE(same);
+    EXPECT_EQ(same->report.closing_facets, 0U);
+    EXPECT_EQ(same->mesh.triangles.size(), 12U);
+}
+
+TEST(Evaluate, NamesOperandsThatTheLatticeIsTooCoarseFor) {
+    const std::vector<mesh::Mesh> pair{cube(0, 0, 0), cube(1e12, 0, 0, 1e12)};
+    const Result<Evaluated> result = unite(pair);
+    ASSERT_TRUE(result);
+    ASSERT_GE(result->report.warnings.size(), 1U);
+    EXPECT_NE(result->report.warnings.back().find("operand 0 are small beside the whole"), std::string::npos)
+        << result->report.warnings.back();
+    EXPECT_EQ(tests::manifold_defect(result->mesh), "");
+}
+
+/// A cone of slivers: a flat fan below, slanted ones above.
+mesh::Mesh sliver_cone(double x, double turn, std::uint32_t count) {
+    mesh::Mesh cone;
+    cone.vertices = {{x, 0, 0}, {x, 0, 1}};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double angle = turn + 6.283185307179586 * i / count;
+        cone.vertices.push_back({x + std::cos(angle), std::sin(angle), 0});
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t a = 2 + i, b = 2 + (i + 1) % count;
+        cone.triangles.push_back({0, b, a});
+        cone.triangles.push_back({1, a, b});
+    }
+    return cone;
+}
+
+TEST(Evaluate, CutsFansOfSliversWithoutLookingAtAllPairs) {
+    const std::vector<mesh::Mesh> cones{sliver_cone(0, 0, 600), sliver_cone(0.01, 0.3, 600)};
+    const Result<Evaluated> either = unite(cones), both = intersect(cones);
+    ASSERT_TRUE(either && both);
+    EXPECT_EQ(tests::manifold_defect(either->mesh), "");
+    EXPECT_EQ(tests::manifold_defect(both->mesh), "");
+    EXPECT_NEAR(tests::volume_of(either->mesh) + tests::volume_of(both->mesh),
+                tests::volume_of(cones[0]) + tests::volume_of(cones[1]), 1e-6);
+    EXPECT_LT(either->report.pairs_tested, 3 * either->report.pieces)
+        << "most pairs should be rejected by filters";
 }
 
 TEST(Evaluate, AcceptsTJunctionsThatLeaveNoGap) {

@@ -53,11 +53,10 @@ class ProgramTest : public testing::Test {
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
     }
-    /// A command for bash in which $octavo is the program.
+    /// The same with `before` in front of the program, for example "cat x | ".
     Ran shell(const std::string& command) const {
         const std::string whole =
-            "cd '" + folder_.string() + "' && octavo=" + program + " bash .command >.out 2>.err";
-        write(".command", command);
+            "cd '" + folder_.string() + "' && octavo=" + program + "; (" + command + ") >.out 2>.err";
         const int status = std::system(whole.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
     }
