@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "model.hpp"
+#include "number_text.hpp"
 
 namespace octavo::cli {
 namespace {
@@ -60,15 +60,15 @@ std::string text_of(const bp_octree::BpOctree& tree, std::span<const std::uint64
         const bp_octree::LevelFigures& figures = tree.levels[i];
         leaves += figures.gray;
         text +=
-            fmt::format("{:>5} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14.8g} {:>9} {:>12}\n", i,
+            fmt::format("{:>5} {:>11} {:>11} {:>11} {:>11} {:>11} {:>14} {:>9} {:>12}\n", i,
                         grouped(figures.split), grouped(figures.gray), grouped(figures.white),
-                        grouped(figures.black), grouped(figures.planes), figures.volume,
+                        grouped(figures.black), grouped(figures.planes), number_text(figures.volume),
                         has_percentage(tree) ? fmt::format("{:.2f}", percentage(tree, figures.volume)) : "-",
                         grouped(bytes_of_level(bytes_to_level, i)));
     }
     const std::size_t triangles = tree.mesh.triangles.size();
     text += fmt::format("solid      {}\n", tree.is_solid
-                                               ? fmt::format("volume {:.10g}", tree.solid_volume)
+                                               ? "volume " + number_text(tree.solid_volume)
                                                : "none: the surface is open, and enveloped as a surface");
     text += fmt::format("tree       {} leaves, {} planes, {} triangles\n", grouped(leaves),
                         grouped(tree.planes.size()), grouped(triangles));

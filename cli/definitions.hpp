@@ -6,22 +6,26 @@
 
 #include <CLI/CLI.hpp>
 
-// The command line's definitions as plain data, for whatever is generated from them: man page, shell completion.
+// The command line's definitions as plain data, for whatever is generated from them: help, man page, shell completion.
 
 namespace octavo::cli {
 
 struct OptionDefinition {
-    std::vector<std::string> names;  ///< with dashes, long ones first; empty for a positional
-    std::string positional;          ///< its name, for a positional
-    std::string value;               ///< placeholder of its value; empty for a flag
-    std::string description;
+    std::vector<std::string> names;    ///< with dashes, long ones first; empty for a positional
+    std::string positional;            ///< its name, for a positional
+    std::string value;                 ///< placeholder of its value; empty for a flag
+    std::vector<std::string> choices;  ///< the values that it takes, where they are few words
+    std::string description;           ///< with its default and the options that it excludes or needs
     bool required = false;
+    bool repeats = false;  ///< takes several values
 };
 
 struct VerbDefinition {
     std::string name, group, summary;
     std::vector<OptionDefinition> positionals, options;
 };
+
+OptionDefinition definition_of(const CLI::Option& option);
 
 /// Every verb, in the order in which it was added.
 std::vector<VerbDefinition> definitions_of(const CLI::App& app);

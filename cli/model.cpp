@@ -1,32 +1,144 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model.hpp"
 
-#include <algorithm>
-#include <filesystem>
-
 #include <fmt/format.h>
 
+#include <octavo/boolean/expression.hpp>
+#include <octavo/bp_octree/to_mesh.hpp>
+#include <octavo/classic/to_mesh.hpp>
+#include <octavo/io/assimp_import.hpp>
+#include <octavo/io/format.hpp>
+#include <octavo/io/hyper_tree_grid.hpp>
+#include <octavo/io/oct.hpp>
+#include <octavo/io/vtu.hpp>
 #include <octavo/mesh/measure.hpp>
 
 namespace octavo::cli {
+namespace {
+
+Error unsupported(const std::string& path, std::string sentence) {
+    return in_file({ErrorCode::unsupported, std::move(sentence), {}}, path);
+}
+
+Result<io::ReadMesh> polyhedron_of_csg(Session& session, const Context& context, const std::string& path) {
+    Result<io::CsgFile> file = read_csg(session, context, path, {.faceted = true});
+    if (!file) return std::move(file).error();
+    Result<boolean::Evaluated> evaluated =
+        session.timed("evaluate", [&] { return boolean::evaluate(file->expression, {}, context); });
+    if (!evaluated) return in_file(std::move(evaluated).error(), path);
+    session.warn(evaluated->report.warnings);
+    io::ReadMesh read;
+    read.format = "csg";
+    read.mesh = std::move(evaluated->mesh);
+    read.mesh.sources.clear();
+    read.polygons = read.mesh.triangles.size();
+    return read;
+}
+
+Result<io::ReadMesh> boundary_of_octree(Session& session, const Context& context, const std::string& path) {
+    Result<octree::Octree> tree = read_octree(session, context, path, "oct");
+    if (!tree) return std::move(tree).error();
+    Result<mesh::Mesh> boundary =
+        session.timed("to_mesh", [&] { return classic::to_mesh(*tree, {}, context); });
+    if (!boundary) return in_file(std::move(boundary).error(), path);
+    if (boundary->triangles.empty()) session.warn("no cell of the octree is black, so its boundary is empty");
+    io::ReadMesh read;
+    read.format = "oct";
+    read.mesh = std::move(*boundary);
+    read.polygons = read.mesh.triangles.size();
+    return read;
+}
+
+Result<io::ReadMesh> triangles_of_bp_octree(Session& session, const Context& context,
+                                            const std::string& path) {
+    Result<bp_octree::ReadBpo> file = read_bp_octree(session, context, path);
+    if (!file) return std::move(file).error();
+    io::ReadMesh read;
+    read.format = "bpo";
+    read.mesh = bp_octree::exact_mesh(file->tree);
+    read.polygons = read.mesh.triangles.size();
+    return read;
+}
+
+}  // namespace
 
 ModelKind kind_of(const std::string& path, const std::string& format) {
-    std::string extension = format.empty() ? std::filesystem::path(path).extension().string() : "." + format;
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".csg") return ModelKind::csg;
-    if (extension == ".oct") return ModelKind::octree;
-    if (extension == ".bpo") return ModelKind::bp_octree;
+    const std::string extension = io::extension_of(format.empty() ? path : "." + format);
+    if (extension == "csg") return ModelKind::csg;
+    if (extension == "oct") return ModelKind::octree;
+    if (extension == "bpo") return ModelKind::bp_octree;
     return ModelKind::mesh;
+}
+
+std::string check_model_format(const std::string& text) {
+    const std::string name = io::extension_of("." + text);
+    if (io::mesh_format_named(name) || kind_of("", name) != ModelKind::mesh || io::assimp_reads(name))
+        return "";
+    return fmt::format("must be {}, csg, oct, bpo or a format that assimp reads, not {}",
+                       io::mesh_format_names(), text);
 }
 
 Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const std::string& path,
                                const std::string& format) {
     session.inputs.push_back(path);
+    switch (kind_of(path, format)) {
+        case ModelKind::csg:
+            return unsupported(path, "is a CSG tree, not a mesh; octavo convert makes a mesh of it");
+        case ModelKind::octree:
+        case ModelKind::bp_octree:
+            return unsupported(path,
+                               "is an octree, not a mesh; octavo stats tells what is in it, octavo convert "
+                               "makes a mesh of it");
+        case ModelKind::mesh:
+            break;
+    }
     io::ReadOptions options;
     options.format = format;
     Result<io::ReadMesh> read = session.timed("read", [&] { return io::read_mesh(path, options, context); });
     if (read) session.warn(read->warnings);
+    return read;
+}
+
+Result<io::ReadMesh> read_surface(Session& session, const Context& context, const std::string& path,
+                                  const std::string& format) {
+    switch (kind_of(path, format)) {
+        case ModelKind::csg:
+            return polyhedron_of_csg(session, context, path);
+        case ModelKind::octree:
+            return boundary_of_octree(session, context, path);
+        case ModelKind::bp_octree:
+            return triangles_of_bp_octree(session, context, path);
+        case ModelKind::mesh:
+            break;
+    }
+    return read_mesh(session, context, path, format);
+}
+
+Result<io::CsgFile> read_csg(Session& session, const Context& context, const std::string& path,
+                             const io::CsgReadOptions& options) {
+    session.inputs.push_back(path);
+    Result<io::CsgFile> file = session.timed("read", [&] { return io::read_csg(path, options, context); });
+    if (file) session.warn(file->warnings);
+    return file;
+}
+
+Result<octree::Octree> read_octree(Session& session, const Context& context, const std::string& path,
+                                   const std::string& format) {
+    session.inputs.push_back(path);
+    if (path != "-" && kind_of(path, format) != ModelKind::octree && !io::extension_of(path).empty())
+        return unsupported(path,
+                           "is no octree (.oct or .bpo); octavo octree and octavo build make them, octavo "
+                           "info tells about meshes");
+    return session.timed("read", [&] { return io::read_octree(path, context); });
+}
+
+Result<bp_octree::ReadBpo> read_bp_octree(Session& session, const Context& context, const std::string& path,
+                                          const bp_octree::ReadBpoOptions& options) {
+    session.inputs.push_back(path);
+    Result<bp_octree::ReadBpo> read =
+        session.timed("read", [&] { return bp_octree::read_bpo(path, options, context); });
+    if (read && read->is_partial)
+        session.warn(fmt::format("the file ends early; levels 0 to {} are there", read->tree.deepest()));
     return read;
 }
 
@@ -35,6 +147,18 @@ Result<io::WriteReport> write_mesh(Session& session, const Context& context, con
     if (path == "-") session.stdout_taken = true;
     Result<io::WriteReport> report =
         session.timed("write", [&] { return io::write_mesh(path, mesh, options, context); });
+    if (report) session.warn(report->warnings);
+    return report;
+}
+
+Result<io::WriteReport> write_octree(Session& session, const Context& context, const std::string& path,
+                                     const octree::Octree& tree, const std::string& format) {
+    if (path == "-") session.stdout_taken = true;
+    Result<io::WriteReport> report = session.timed("write", [&] {
+        if (format == "htg") return io::write_hyper_tree_grid(path, tree, {}, context);
+        if (format == "vtu") return io::write_vtu(path, tree, {}, context);
+        return io::write_octree(path, tree, context);
+    });
     if (report) session.warn(report->warnings);
     return report;
 }
@@ -49,56 +173,29 @@ Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh) {
     return snapped;
 }
 
-Result<bp_octree::ReadBpo> read_bp_octree(Session& session, const Context& context, const std::string& path,
-                                          const bp_octree::ReadBpoOptions& options) {
-    session.inputs.push_back(path);
-    Result<bp_octree::ReadBpo> read =
-        session.timed("read", [&] { return bp_octree::read_bpo(path, options, context); });
-    if (read && read->is_partial)
-        session.warn(fmt::format("the file ends early; levels 0 to {} are there", read->tree.deepest()));
-    return read;
-}
-
 Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& context, const std::string& path,
                                           const std::string& format) {
     if (kind_of(path, format) == ModelKind::bp_octree) {
-        Result<bp_octree::ReadBpo> read = read_bp_octree(session, context, path);
-        if (!read) return std::move(read).error();
-        return std::move(read->tree.mesh);
+        Result<bp_octree::ReadBpo> file = read_bp_octree(session, context, path);
+        if (!file) return std::move(file).error();
+        return std::move(file->tree.mesh);
     }
-    Result<io::ReadMesh> read = read_mesh(session, context, path, format);
+    Result<io::ReadMesh> read = read_surface(session, context, path, format);
     if (!read) return std::move(read).error();
     Result<mesh::Snapped> snapped = snap(session, read->mesh);
     if (!snapped) return in_file(std::move(snapped).error(), path);
     if (snapped->report.moved_vertices)
-        session.warn(fmt::format(
-            "{} of {} vertices were rounded to the lattice, by at most {:.3g}; the answers are exact for "
-            "the rounded solid",
-            grouped(snapped->report.moved_vertices), grouped(read->mesh.vertices.size()),
-            snapped->report.largest_displacement));
+        session.warn(
+            fmt::format("{} of {} vertices were rounded to the lattice, by at most {}; the answers are exact "
+                        "for the rounded solid",
+                        grouped(snapped->report.moved_vertices), grouped(read->mesh.vertices.size()),
+                        number_text(snapped->report.largest_displacement)));
     return std::move(snapped->mesh);
 }
 
 Error in_file(Error error, const std::string& path) {
     if (error.place.file.empty()) error.place.file = path;
     return error;
-}
-
-bool same_file(const std::string& a, const std::string& b) {
-    std::error_code ignored;
-    return a != "-" && b != "-" && std::filesystem::equivalent(a, b, ignored);
-}
-
-Error would_overwrite(const std::string& path) {
-    Error error{ErrorCode::io, "the output would overwrite the input; name another file", {}};
-    error.place.file = path;
-    return error;
-}
-
-std::string grouped(std::uint64_t number) {
-    std::string digits = std::to_string(number);
-    for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, " ");
-    return digits;
 }
 
 }  // namespace octavo::cli

@@ -3,14 +3,19 @@
 
 #include <string>
 
+#include "number_text.hpp"
+#include "option_checks.hpp"
+#include "output.hpp"
 #include "session.hpp"
 #include <octavo/bp_octree/bpo_file.hpp>
+#include <octavo/io/openscad_csg.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/io/write.hpp>
 #include <octavo/mesh/snap.hpp>
+#include <octavo/octree/octree.hpp>
 
 // What nearly every verb does first and last: read the model that the command line names and write what came of it.
-// Both are timed, and their warnings are passed on.
+// Both are timed, and their warnings are passed on. Inputs are remembered for `--json`.
 
 namespace octavo::cli {
 
@@ -19,16 +24,27 @@ enum class ModelKind { mesh, csg, octree, bp_octree };
 
 ModelKind kind_of(const std::string& path, const std::string& format);
 
-/// Reads a mesh; remembers `path` among the inputs.
+/// For an option that names the format of a model instead of its extension.
+std::string check_model_format(const std::string& text);
+
+/// Reads a mesh. A CSG tree or an octree of either kind is refused, with the verb that makes a mesh of it.
 Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const std::string& path,
                                const std::string& format = "");
 
-/// Reads a mesh and snaps it, or takes the triangles of a BP-octree (.bpo), which are on a lattice already. Warns when
-/// snapping moved vertices, since answers are exact for the snapped solid.
-Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& context, const std::string& path,
-                                          const std::string& format = "");
+/// Reads the surface of whatever bounds a solid: a mesh as it is; a CSG tree evaluated exactly, with round things as
+/// the polyhedra that OpenSCAD makes of them; an octree as the boundary of its black cells; a BP-octree as its exact
+/// triangles.
+Result<io::ReadMesh> read_surface(Session& session, const Context& context, const std::string& path,
+                                  const std::string& format = "");
 
-/// Reads a BP-octree; remembers `path` among the inputs, and warns when only its beginning is there.
+Result<io::CsgFile> read_csg(Session& session, const Context& context, const std::string& path,
+                             const io::CsgReadOptions& options);
+
+/// Reads an octree; a mesh or a CSG tree is refused, with the verb that makes an octree of it.
+Result<octree::Octree> read_octree(Session& session, const Context& context, const std::string& path,
+                                   const std::string& format = "");
+
+/// Reads a BP-octree; warns when only its beginning is there.
 Result<bp_octree::ReadBpo> read_bp_octree(Session& session, const Context& context, const std::string& path,
                                           const bp_octree::ReadBpoOptions& options = {});
 
@@ -36,22 +52,22 @@ Result<bp_octree::ReadBpo> read_bp_octree(Session& session, const Context& conte
 Result<io::WriteReport> write_mesh(Session& session, const Context& context, const std::string& path,
                                    const mesh::Mesh& mesh, const io::WriteOptions& options = {});
 
+/// Writes an octree as "oct", "vtu" or "htg"; `path` "-" takes stdout over.
+Result<io::WriteReport> write_octree(Session& session, const Context& context, const std::string& path,
+                                     const octree::Octree& tree, const std::string& format);
+
 /// Snaps a mesh to its own lattice. Warns when the surface is inside out.
 Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh);
+
+/// Reads a surface and snaps it, or takes the triangles of a BP-octree, which are on a lattice already. Warns when
+/// snapping moved vertices, since answers are exact for the snapped solid.
+Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& context, const std::string& path,
+                                          const std::string& format = "");
 
 /// The same error, with the file that it is about.
 Error in_file(Error error, const std::string& path);
 
-/// True when both names lead to the same existing file; then writing would destroy the input.
-bool same_file(const std::string& a, const std::string& b);
-
-/// The error for `same_file`.
-Error would_overwrite(const std::string& path);
-
 /// Three numbers for `--json`.
 inline Json json_of(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
-
-/// 1234567 as "1 234 567", for people.
-std::string grouped(std::uint64_t number);
 
 }  // namespace octavo::cli

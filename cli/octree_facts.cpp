@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "model.hpp"
+#include "number_text.hpp"
 
 namespace octavo::cli {
 namespace {
@@ -16,7 +16,7 @@ double cell_size(const octree::Octree& tree) {
 
 }  // namespace
 
-Json json_of(const octree::Octree& tree, std::size_t file_bytes) {
+Json json_of(const octree::Octree& tree, const TreeFile& file) {
     const octree::OctreeStats stats = tree.stats();
     Json levels = Json::array();
     for (int level = 0; level <= stats.deepest; ++level) {
@@ -27,7 +27,8 @@ Json json_of(const octree::Octree& tree, std::size_t file_bytes) {
                           {"gray", one.gray},
                           {"split", one.split}});
     }
-    return {{"depth", tree.depth()},
+    return {{"format", file.format},
+            {"depth", tree.depth()},
             {"leaves", stats.leaves()},
             {"white", stats.white},
             {"black", stats.black},
@@ -36,11 +37,11 @@ Json json_of(const octree::Octree& tree, std::size_t file_bytes) {
             {"volume_lower", octree::world_volume(tree.lattice(), stats.black_volume)},
             {"volume_upper", octree::world_volume(tree.lattice(), stats.black_volume + stats.gray_volume)},
             {"cell_size", cell_size(tree)},
-            {"bytes", file_bytes},
+            {"bytes", file.bytes},
             {"levels", levels}};
 }
 
-std::string text_of(const octree::Octree& tree, std::size_t file_bytes) {
+std::string text_of(const octree::Octree& tree, const TreeFile& file) {
     const octree::OctreeStats stats = tree.stats();
     std::string text =
         fmt::format("{:>5} {:>13} {:>13} {:>13} {:>13}\n", "level", "white", "black", "gray", "split");
@@ -51,13 +52,15 @@ std::string text_of(const octree::Octree& tree, std::size_t file_bytes) {
     }
     const double lower = octree::world_volume(tree.lattice(), stats.black_volume);
     const double upper = octree::world_volume(tree.lattice(), stats.black_volume + stats.gray_volume);
-    text += fmt::format("leaves     {} ({} white, {} black, {} gray), smallest cell {:.6g}\n",
+    text += fmt::format("leaves     {} ({} white, {} black, {} gray), smallest cell {}\n",
                         grouped(stats.leaves()), grouped(stats.white), grouped(stats.black),
-                        grouped(stats.gray), cell_size(tree));
-    text += fmt::format("volume     between {:.10g} and {:.10g}\n", lower, upper);
-    text += fmt::format("size       {} bytes, {:.2f} bits a node\n", grouped(file_bytes),
-                        8.0 * static_cast<double>(file_bytes) / static_cast<double>(stats.nodes()));
-    return text;
+                        grouped(stats.gray), number_text(cell_size(tree)));
+    text += fmt::format("volume     between {} and {}\n", number_text(lower, upper), number_text(upper));
+    text += fmt::format("size       {} bytes of {}", grouped(file.bytes), file.format);
+    if (file.format == "oct")
+        text += fmt::format(", {:.2f} bits a node",
+                            8.0 * static_cast<double>(file.bytes) / static_cast<double>(stats.nodes()));
+    return text + "\n";
 }
 
 }  // namespace octavo::cli

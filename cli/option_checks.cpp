@@ -1,16 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "option_checks.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
 
 namespace octavo::cli {
+namespace {
+
+template <class Number>
+std::optional<Number> parsed(const std::string& text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+}  // namespace
 
 std::string check_positive(const std::string& text) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool is_number = error == std::errc() && end == text.data() + text.size();
-    return is_number && std::isfinite(number) && number > 0 ? "" : text + " is no positive, finite number";
+    const std::optional<double> number = parsed<double>(text);
+    return number && std::isfinite(*number) && *number > 0
+               ? ""
+               : fmt::format("must be a positive, finite number, not {}", text);
+}
+
+OptionCheck whole_number(std::int64_t least, std::int64_t most) {
+    return [=](const std::string& text) -> std::string {
+        const std::optional<std::int64_t> number = parsed<std::int64_t>(text);
+        if (number && *number >= least && *number <= most) return "";
+        return fmt::format("must be a whole number from {} to {}, not {}", least, most, text);
+    };
+}
+
+OptionCheck number_between(double least, double most) {
+    return [=](const std::string& text) -> std::string {
+        const std::optional<double> number = parsed<double>(text);
+        if (number && *number >= least && *number <= most) return "";
+        return fmt::format("must be a number from {} to {}, not {}", least, most, text);
+    };
+}
+
+CLI::Option* take_one_of(CLI::Option* option, const std::vector<std::string>& words) {
+    std::string choices, sentence;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        choices += (i ? "|" : "") + words[i];
+        sentence += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    }
+    const OptionCheck check = [words, sentence](const std::string& text) -> std::string {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return "";
+        return fmt::format("must be {}, not {}", sentence, text);
+    };
+    return option->check(check)->type_name(choices)->capture_default_str();
 }
 
 }  // namespace octavo::cli

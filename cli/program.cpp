@@ -1,37 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program.hpp"
 
+#include <algorithm>
 #include <exception>
+#include <span>
+#include <string_view>
 
 #include <fmt/format.h>
+
+#include "definitions.hpp"
+#include "help_formatter.hpp"
+#include "option_checks.hpp"
+#include "suggestion.hpp"
 
 namespace octavo::cli {
 namespace {
 
 constexpr const char* footer =
-    "Formats follow from the file's extension: stl obj ply off 3mf and more to read meshes, csg for OpenSCAD "
-    "trees, oct\n"
-    "and bpo for octrees; - is stdin or stdout. Data goes to stdout, messages to stderr.\n"
+    "Formats follow from the file's extension; - is stdin or stdout. Data goes to stdout, messages to "
+    "stderr.\n"
+    "Meshes: stl, obj, ply, off, 3mf read and written; glb, gltf, dae, fbx, 3ds, ... read through assimp.\n"
+    "CSG trees of OpenSCAD: csg read. Octrees: oct read and written; vtu, htg written for ParaView. "
+    "BP-octrees: bpo.\n"
+    "Points: csv, xyz, npy, ply read. Answers: csv, npy, ply written. Pictures: png written.\n"
     "\n"
     "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad input, 4 a limit was reached, 5 internal error, "
     "130 interrupted.\n"
     "\n"
-    "Help on one verb: octavo VERB --help";
+    "Help on one verb: octavo VERB --help. The manual: octavo man | man -l -";
 
-/// What is wrong with the command line, in the words of this program.
-std::string sentence_of(const CLI::ParseError& error, int argc, const char* const* argv) {
-    if (error.get_name() != "RequiredError" ||
-        std::string_view(error.what()).find("subcommand") == std::string_view::npos)
-        return error.what();
-    return argc > 1 ? fmt::format("there is no verb {}", argv[1]) : "a verb is missing";
+constexpr const char* verb_footer = "Formats and exit codes: octavo --help";
+
+std::string with_suggestion(const std::string& sentence, const std::string& word,
+                            std::span<const std::string> known) {
+    const std::string meant = nearest_word(word, known);
+    return meant.empty() ? sentence : sentence + "; did you mean " + meant + "?";
 }
 
-int usage_error(const CLI::App& app, const std::string& sentence) {
-    fmt::print(stderr, "octavo: {}\n", sentence);
-    const CLI::App* at = &app;
-    for (const CLI::App* verb : app.get_subcommands()) at = verb;
-    fmt::print(stderr, "Try: octavo {}--help\n", at == &app ? "" : at->get_name() + " ");
-    return static_cast<int>(ExitCode::usage);
+/// What is wrong with the command line when no verb was found in it.
+std::string sentence_without_verb(const CLI::App& app, int argc, const char* const* argv) {
+    if (argc < 2) return "a verb is missing";
+    const std::string first = argv[1];
+    if (first.starts_with('-')) return "the verb comes first, and " + first + " is none";
+    std::vector<std::string> verbs;
+    for (const VerbDefinition& verb : definitions_of(app)) verbs.push_back(verb.name);
+    return with_suggestion("there is no verb " + first, first, verbs);
+}
+
+/// What is wrong with the command line, in the words of this program.
+std::string sentence_of(const CLI::ParseError& error, const CLI::App& app, int argc,
+                        const char* const* argv) {
+    const std::vector<const CLI::App*> chosen =
+        app.get_subcommands([](const CLI::App* verb) { return verb->parsed(); });
+    if (chosen.empty()) return sentence_without_verb(app, argc, argv);
+    // What is there too much explains best, also where something else is missing.
+    const std::vector<std::string> extras = app.remaining(true);
+    if (extras.empty()) return error.what();
+    if (!extras.front().starts_with('-'))
+        return error.get_name() == "ExtrasError" ? fmt::format("{} takes no further argument {}",
+                                                               chosen.front()->get_name(), extras.front())
+                                                 : error.what();
+    std::vector<std::string> options;
+    for (const VerbDefinition& verb : definitions_of(app))
+        if (verb.name == chosen.front()->get_name())
+            for (const OptionDefinition& one : verb.options)
+                options.insert(options.end(), one.names.begin(), one.names.end());
+    return with_suggestion(fmt::format("{} has no option {}", chosen.front()->get_name(), extras.front()),
+                           extras.front(), options);
+}
+
+/// Whether an object is wanted on stdout; asked when the command line could not be parsed.
+bool names_json(int argc, const char* const* argv) {
+    return std::any_of(argv, argv + argc,
+                       [](const char* word) { return std::string_view(word) == "--json"; });
 }
 
 }  // namespace
@@ -40,8 +81,7 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     app_.set_version_flag("--version", std::string("octavo ") + OCTAVO_VERSION);
     app_.require_subcommand(1);
     app_.footer(footer);
-    app_.get_formatter()->column_width(34);
-    app_.get_formatter()->label("SUBCOMMAND", "VERB");
+    app_.formatter(std::make_shared<HelpFormatter>());
 
     add_info(*this);
     add_check(*this);
@@ -49,7 +89,6 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     add_repair(*this);
     add_convert(*this);
     add_boolean(*this);
-    add_eval(*this);
     add_shape(*this);
     add_octree(*this);
     add_build(*this);
@@ -66,6 +105,7 @@ CLI::App* Program::verb(const std::string& name, const std::string& group, const
                         Run run) {
     CLI::App* verb = app_.add_subcommand(name, summary);
     verb->group(group);
+    verb->footer(verb_footer);
     verb->callback([this, name, run] {
         session_.command = name;
         chosen_ = run;
@@ -76,21 +116,23 @@ CLI::App* Program::verb(const std::string& name, const std::string& group, const
 
 void Program::add_common_options(CLI::App* verb) {
     CommonOptions& options = session_.options;
-    verb->add_flag("--json", options.json, "Print one JSON object on stdout")->group("Common options");
-    verb->add_flag("-q,--quiet", options.quiet, "Print errors only")->group("Common options");
+    const std::string group = "Common options";
+    verb->add_flag("--json", options.json, "Print one JSON object on stdout, also when it fails")
+        ->group(group);
+    verb->add_flag("-q,--quiet", options.quiet, "Print errors only")->group(group);
     verb->add_option("--threads", options.threads,
                      "Threads to use; 0 is all, the result is the same for any number")
-        ->check(CLI::Range(0, 1024))
+        ->check(whole_number(0, 1024))
         ->type_name("N")
-        ->group("Common options");
-    verb->add_option("--progress", options.progress, "Progress on stderr: auto, bar, plain or none")
-        ->check(CLI::IsMember({"auto", "bar", "plain", "none"}))
-        ->type_name("STYLE")
-        ->group("Common options");
-    verb->add_option("--color", options.color, "Colour in messages: auto, always or never")
-        ->check(CLI::IsMember({"auto", "always", "never"}))
-        ->type_name("WHEN")
-        ->group("Common options");
+        ->capture_default_str()
+        ->group(group);
+    take_one_of(
+        verb->add_option("--progress", options.progress, "Progress on stderr; auto is a bar on a terminal"),
+        {"auto", "bar", "plain", "none"})
+        ->group(group);
+    take_one_of(verb->add_option("--color", options.color, "Colour in messages; auto is on a terminal"),
+                {"auto", "always", "never"})
+        ->group(group);
 }
 
 int Program::main(int argc, const char* const* argv) {
@@ -99,7 +141,9 @@ int Program::main(int argc, const char* const* argv) {
     } catch (const CLI::Success& success) {  // --help and --version
         return app_.exit(success);
     } catch (const CLI::ParseError& error) {
-        return usage_error(app_, sentence_of(error, argc, argv));
+        session_.options.json = session_.options.json || names_json(argc, argv);
+        for (const CLI::App* verb : app_.get_subcommands()) session_.command = verb->get_name();
+        return session_.finish(session_.usage_error(sentence_of(error, app_, argc, argv)));
     }
     try {
         return session_.finish(chosen_(session_));

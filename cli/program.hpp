@@ -48,7 +48,6 @@ void add_render(Program& program);
 void add_shape(Program& program);
 void add_boolean(Program& program);
 void add_hexmesh(Program& program);
-void add_eval(Program& program);
 void add_completion(Program& program);
 void add_man(Program& program);
 

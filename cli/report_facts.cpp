@@ -24,6 +24,7 @@ Json json_of(const mesh::Report& report) {
             {"merged_components", report.merged_components},
             {"shells", report.shells},
             {"cavities", report.cavities},
+            {"nested_bodies", report.nested_bodies},
             {"snap_displacement", report.snap_displacement}};
 }
 

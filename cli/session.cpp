@@ -40,16 +40,6 @@ ProgressStyle style_of(const CommonOptions& options) {
     return isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::none;
 }
 
-Json json_of(const Error& error) {
-    Json json = {{"code", name_of(error.code)}, {"message", error.sentence}};
-    if (!error.place.file.empty()) json["file"] = error.place.file;
-    if (error.place.line) json["line"] = error.place.line;
-    if (error.place.column) json["column"] = error.place.column;
-    if (error.place.byte != Place::no_byte) json["byte"] = error.place.byte;
-    if (!error.place.faces.empty()) json["faces"] = error.place.faces;
-    return json;
-}
-
 }  // namespace
 
 Context Session::context() {
@@ -61,6 +51,11 @@ Context Session::context() {
     context.cancel = &interrupted;
     context.on_progress = [bar = bar_.get()](std::string_view phase, double done) { bar->show(phase, done); };
     return context;
+}
+
+Error Session::usage_error(std::string sentence) {
+    usage_is_wrong_ = true;
+    return {ErrorCode::bad_input, std::move(sentence), {}};
 }
 
 void Session::add_timing(const std::string& phase, double seconds) {
@@ -79,7 +74,22 @@ int Session::finish(Result<ExitCode> outcome) {
         fmt::print(stderr, "octavo: cannot write to stdout\n");
         return static_cast<int>(ExitCode::bad_input);
     }
-    return static_cast<int>(outcome ? *outcome : exit_code_of(outcome.error().code));
+    return static_cast<int>(exit_code_of(outcome));
+}
+
+ExitCode Session::exit_code_of(const Result<ExitCode>& outcome) const {
+    if (outcome) return *outcome;
+    return usage_is_wrong_ ? ExitCode::usage : cli::exit_code_of(outcome.error().code);
+}
+
+Json Session::json_of(const Error& error) const {
+    Json json = {{"code", usage_is_wrong_ ? "usage" : name_of(error.code)}, {"message", error.sentence}};
+    if (!error.place.file.empty()) json["file"] = error.place.file;
+    if (error.place.line) json["line"] = error.place.line;
+    if (error.place.column) json["column"] = error.place.column;
+    if (error.place.byte != Place::no_byte) json["byte"] = error.place.byte;
+    if (!error.place.faces.empty()) json["faces"] = error.place.faces;
+    return json;
 }
 
 void Session::print_messages(const Result<ExitCode>& outcome) const {
@@ -91,6 +101,7 @@ void Session::print_messages(const Result<ExitCode>& outcome) const {
     if (!outcome)
         fmt::print(stderr, "octavo: {}error:{} {}\n", colored ? "\x1b[31m" : "", colored ? "\x1b[0m" : "",
                    outcome.error().describe());
+    if (usage_is_wrong_) fmt::print(stderr, "Try: octavo {}--help\n", command.empty() ? "" : command + " ");
 }
 
 void Session::print_json(const Result<ExitCode>& outcome) const {

@@ -16,7 +16,8 @@
 #include <octavo/base/result.hpp>
 
 // One run of the program: the options that every verb has, what the verb found, and how both are told. Data goes to
-// stdout and messages to stderr; with --json, stdout carries exactly one object whatever happens.
+// stdout and messages to stderr; with --json, stdout carries exactly one object whatever happens, so data cannot go
+// there too and `-o -` is refused beside it.
 
 namespace octavo::cli {
 
@@ -67,6 +68,9 @@ class Session {
         for (const std::string& sentence : sentences) warn(sentence);
     }
 
+    /// An error for what is wrong with the command line itself rather than with a file: exit code 2.
+    Error usage_error(std::string sentence);
+
     /// Threads, progress and Ctrl-C, for the library.
     Context context();
 
@@ -75,11 +79,14 @@ class Session {
 
   private:
     void add_timing(const std::string& phase, double seconds);
+    ExitCode exit_code_of(const Result<ExitCode>& outcome) const;
+    Json json_of(const Error& error) const;
     void print_messages(const Result<ExitCode>& outcome) const;
     void print_json(const Result<ExitCode>& outcome) const;
 
     Json timings_ = Json::object();
     std::vector<std::string> warnings_;
+    bool usage_is_wrong_ = false;
     std::unique_ptr<ProgressBar> bar_;
 };
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -36,12 +35,9 @@ bp_octree::BuildOptions building(const BuildOptions& options) {
 
 Result<ExitCode> build(Session& session, const BuildOptions& options) {
     const Context context = session.context();
-    if (same_file(options.input, options.output)) return would_overwrite(options.output);
-    if (!options.output.empty() && options.output != "-" &&
-        kind_of(options.output, "") != ModelKind::bp_octree)
-        return Error{ErrorCode::unsupported,
-                     "BP-octrees are written as .bpo, and the output is " + options.output,
-                     {}};
+    static const OutputFormats formats{"BP-octrees", {"bpo"}, "bpo"};
+    const Result<std::string> format = settle_output(session, {options.input}, options.output, "", formats);
+    if (!format) return format.error();
     Result<mesh::LatticeMesh> mesh = read_on_lattice(session, context, options.input, options.format);
     if (!mesh) return std::move(mesh).error();
     Result<bp_octree::BpOctree> tree =
@@ -80,34 +76,39 @@ void add_build(Program& program) {
     const auto options = std::make_shared<BuildOptions>();
     CLI::App* verb = program.verb("build", "Trees", "Build the BP-octree of a solid: nested convex envelopes",
                                   [options](Session& session) { return build(session, *options); });
-    verb->add_option("FILE", options->input, "A mesh; - is stdin")->required()->type_name("FILE");
-    verb->add_option("-o,--output", options->output, "The BP-octree to write: .bpo")->type_name("FILE");
-    verb->add_option("--depth", options->depth, "The deepest level, 0 to 18; 9 by default")
-        ->check(CLI::Range(0, bp_octree::max_depth))
-        ->type_name("N");
+    verb->add_option("FILE", options->input, "A mesh (- is stdin), or a CSG tree (.csg): its polyhedron")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("-o,--output", options->output, "The BP-octree to write: bpo; - is stdout")
+        ->type_name("FILE");
+    verb->add_option("--depth", options->depth, "The deepest level, 0 to 18")
+        ->check(whole_number(0, bp_octree::max_depth))
+        ->type_name("N")
+        ->capture_default_str();
     verb->add_option("--leaf-triangles", options->leaf_triangles,
-                     "Cells with at most this many triangles are not split; 50 by default")
-        ->check(CLI::Range(1, 1000000))
-        ->type_name("N");
-    verb->add_option("--quality", options->quality,
-                     "normal, or fast: fewer directions tried, looser envelopes")
-        ->check(CLI::IsMember({"normal", "fast"}))
-        ->type_name("QUALITY");
-    verb->add_option("--gain", options->gain,
-                     "Planes must cut more than this part of their cell; 0.001 by default")
+                     "Cells with at most this many triangles are not split")
+        ->check(whole_number(1, 1000000))
+        ->type_name("N")
+        ->capture_default_str();
+    take_one_of(
+        verb->add_option("--quality", options->quality, "fast tries fewer directions: looser envelopes"),
+        {"normal", "fast"});
+    verb->add_option("--gain", options->gain, "Planes must cut more than this part of their cell")
         ->check(check_positive)
-        ->type_name("PART");
-    verb->add_option(
+        ->type_name("PART")
+        ->capture_default_str();
+    take_one_of(
+        verb->add_option(
             "--planes", options->planes,
-            "greedy: by the volume they cut; k-medoids: by normals, as in the thesis, for comparison")
-        ->check(CLI::IsMember({"greedy", "k-medoids"}))
-        ->type_name("CHOICE");
-    verb->add_option("--part", options->part,
-                     "For k-medoids: planes of level 0 as a part of the triangles; 0.01 by default")
+            "greedy: by the volume they cut; k-medoids: by normals, as in the thesis, for comparison"),
+        {"greedy", "k-medoids"});
+    verb->add_option("--part", options->part, "For k-medoids: planes of level 0 as a part of the triangles")
         ->check(check_positive)
-        ->type_name("PART");
+        ->type_name("PART")
+        ->capture_default_str();
     verb->add_flag("--certify", options->certify, "Prove the tree again from its triangles");
     verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
+        ->check(check_model_format)
         ->type_name("FORMAT");
 }
 

@@ -37,9 +37,12 @@ void add_check(Program& program) {
                      [options](Session& session) { return check(session, *options); });
     verb->add_option("FILE", options->input, "The mesh; - is stdin")->required()->type_name("FILE");
     verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
+        ->check(check_model_format)
         ->type_name("FORMAT");
-    verb->add_option("--faces", options->most_faces, "Most facets to list in a problem; 1000 by default")
-        ->type_name("N");
+    verb->add_option("--faces", options->most_faces, "With --json: most facets to list in a problem")
+        ->check(whole_number(0, 4'000'000'000))
+        ->type_name("N")
+        ->capture_default_str();
 }
 
 }  // namespace octavo::cli

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "model.hpp"
 #include "program.hpp"
 #include <octavo/bp_octree/to_mesh.hpp>
 
-// `octavo convert IN OUT`: from one format to another, without changing the geometry; and a level of a BP-octree as
-// triangles.
+// `octavo convert IN OUT`: from one format to another, without changing the geometry. A CSG tree becomes the mesh that
+// it evaluates to, an octree the boundary of its black cells, or another form of itself, a BP-octree its exact triangles
+// or the envelopes of a level.
 
 namespace octavo::cli {
 namespace {
 
 struct ConvertOptions {
     std::string input, output, from, to, encoding = "auto", unit;
-    int level = no_level;
+    std::optional<int> level;  ///< of a BP-octree; none is the exact triangles
     bool without_cell_faces = false;
-    static constexpr int no_level = -1;  ///< the exact triangles
 };
 
 io::Encoding encoding_of(const std::string& word) {
@@ -24,45 +27,45 @@ io::Encoding encoding_of(const std::string& word) {
     return io::Encoding::automatic;
 }
 
-/// The triangles of a BP-octree, or the envelopes of one of its levels.
-Result<io::ReadMesh> mesh_of_bp_octree(Session& session, const Context& context,
-                                       const ConvertOptions& options) {
-    bp_octree::ReadBpoOptions reading;
-    const bool exact = options.level == ConvertOptions::no_level;
-    if (!exact) {
-        reading.levels = options.level;
-        reading.partial = bp_octree::ReadBpoOptions::Partial::accept;
-    }
-    Result<bp_octree::ReadBpo> file = read_bp_octree(session, context, options.input, reading);
-    if (!file) return std::move(file).error();
-    io::ReadMesh mesh;
-    if (exact) {
-        mesh.mesh = bp_octree::exact_mesh(file->tree);
-        return mesh;
-    }
-    if (file->tree.deepest() < options.level)
-        session.warn(fmt::format("the deepest level is {}; that is what is written", file->tree.deepest()));
-    bp_octree::ToMeshOptions drawing;
-    drawing.level = options.level;
-    drawing.cell_faces = !options.without_cell_faces;
-    mesh.mesh = session.timed("to_mesh", [&] { return bp_octree::to_mesh(file->tree, drawing, context); });
-    if (context.cancelled()) return Context::cancelled_error();
-    return mesh;
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-Result<ExitCode> convert(Session& session, const ConvertOptions& options) {
-    const Context context = session.context();
-    if (same_file(options.input, options.output)) return would_overwrite(options.output);
-    const bool is_bp_octree = kind_of(options.input, options.from) == ModelKind::bp_octree;
-    if (!is_bp_octree && (options.level != ConvertOptions::no_level || options.without_cell_faces))
-        return Error{ErrorCode::unsupported, "only BP-octrees (.bpo) have levels", {}};
-    Result<io::ReadMesh> read = is_bp_octree ? mesh_of_bp_octree(session, context, options)
-                                             : read_mesh(session, context, options.input, options.from);
-    if (!read) return std::move(read).error();
+Result<ExitCode> convert_octree(Session& session, const Context& context, const ConvertOptions& options,
+                                const std::string& format) {
+    Result<octree::Octree> tree = read_octree(session, context, options.input, options.from);
+    if (!tree) return std::move(tree).error();
+    Result<io::WriteReport> report = write_octree(session, context, options.output, *tree, format);
+    if (!report) return std::move(report).error();
+    session.result = {{"leaves", tree->stats().leaves()}, {"format", format}, {"bytes", report->bytes}};
+    session.text = fmt::format("{}: {} leaves, {} bytes of {}\n", options.output,
+                               grouped(tree->stats().leaves()), grouped(report->bytes), format);
+    return ExitCode::ok;
+}
 
-    io::WriteOptions writing;
-    writing.format = options.to;
-    writing.encoding = encoding_of(options.encoding);
+/// The envelopes of one level of a BP-octree.
+Result<io::ReadMesh> read_envelopes(Session& session, const Context& context, const ConvertOptions& options) {
+    bp_octree::ReadBpoOptions reading;
+    reading.levels = *options.level;
+    reading.partial = bp_octree::ReadBpoOptions::Partial::accept;
+    Result<bp_octree::ReadBpo> file = read_bp_octree(session, context, options.input, reading);
+    if (!file) return std::move(file).error();
+    if (file->tree.deepest() < *options.level)
+        session.warn(fmt::format("the deepest level is {}; that is what is written", file->tree.deepest()));
+    const bp_octree::ToMeshOptions drawing{.level = *options.level,
+                                           .cell_faces = !options.without_cell_faces};
+    io::ReadMesh read;
+    read.mesh = session.timed("to_mesh", [&] { return bp_octree::to_mesh(file->tree, drawing, context); });
+    if (context.cancelled()) return Context::cancelled_error();
+    return read;
+}
+
+Result<ExitCode> convert_surface(Session& session, const Context& context, const ConvertOptions& options,
+                                 const std::string& format) {
+    Result<io::ReadMesh> read = options.level ? read_envelopes(session, context, options)
+                                              : read_surface(session, context, options.input, options.from);
+    if (!read) return std::move(read).error();
+    io::WriteOptions writing{.format = format, .encoding = encoding_of(options.encoding)};
     if (!options.unit.empty()) {
         writing.unit = options.unit;
     } else if (!read->unit.empty()) {
@@ -70,7 +73,6 @@ Result<ExitCode> convert(Session& session, const ConvertOptions& options) {
     }
     Result<io::WriteReport> report = write_mesh(session, context, options.output, read->mesh, writing);
     if (!report) return std::move(report).error();
-
     session.result = {{"vertices", read->mesh.vertices.size()},
                       {"triangles", read->mesh.triangles.size()},
                       {"format", report->format},
@@ -82,32 +84,55 @@ Result<ExitCode> convert(Session& session, const ConvertOptions& options) {
     return ExitCode::ok;
 }
 
+Result<ExitCode> convert(Session& session, const ConvertOptions& options) {
+    const Context context = session.context();
+    const ModelKind kind = kind_of(options.input, options.from);
+    if (options.level && kind != ModelKind::bp_octree)
+        return session.usage_error("--level is for BP-octrees (.bpo), and " + options.input + " is none");
+    OutputFormats formats = mesh_outputs();
+    if (kind == ModelKind::octree)
+        formats.names.insert(formats.names.end(), octree_outputs().names.begin(),
+                             octree_outputs().names.end());
+    const Result<std::string> format =
+        settle_output(session, {options.input}, options.output, options.to, formats);
+    if (!format) return format.error();
+    return is_among(octree_outputs().names, *format) ? convert_octree(session, context, options, *format)
+                                                     : convert_surface(session, context, options, *format);
+}
+
 }  // namespace
 
 void add_convert(Program& program) {
     const auto options = std::make_shared<ConvertOptions>();
-    CLI::App* verb =
-        program.verb("convert", "Edit", "Write a mesh, or a level of a BP-octree, in another format",
-                     [options](Session& session) { return convert(session, *options); });
-    verb->add_option("IN", options->input, "The mesh (- is stdin) or BP-octree (.bpo) to read")
+    CLI::App* verb = program.verb("convert", "Edit", "Write a model in another format",
+                                  [options](Session& session) { return convert(session, *options); });
+    verb->add_option(
+            "IN", options->input,
+            "A mesh (- is stdin), a CSG tree (.csg), an octree (.oct): its black cells as a mesh, or a "
+            "BP-octree (.bpo): its triangles")
         ->required()
         ->type_name("FILE");
-    verb->add_option("OUT", options->output, "The file to write; - is stdout")->required()->type_name("FILE");
+    verb->add_option("OUT", options->output,
+                     "The file to write: " + one_of(mesh_outputs().names) +
+                         ", and of an octree also oct, vtu or htg; - is stdout")
+        ->required()
+        ->type_name("FILE");
     verb->add_option("--from", options->from, "Format of IN, instead of by its extension")
+        ->check(check_model_format)
         ->type_name("FORMAT");
     verb->add_option("--to", options->to, "Format of OUT, instead of by its extension")->type_name("FORMAT");
-    verb->add_option("--encoding", options->encoding, "auto, binary or ascii, where the format has both")
-        ->check(CLI::IsMember({"auto", "binary", "ascii"}))
-        ->type_name("KIND");
-    verb->add_option("--unit", options->unit, "Unit of length to state in formats that can (3mf)")
-        ->type_name("UNIT");
+    take_one_of(verb->add_option("--encoding", options->encoding, "For stl and ply; auto is binary"),
+                {"auto", "binary", "ascii"});
+    take_one_of(verb->add_option("--unit", options->unit,
+                                 "Unit of length to state in 3mf; that of IN, or millimeter, by default"),
+                {"micron", "millimeter", "centimeter", "inch", "foot", "meter"});
     CLI::Option* level =
         verb->add_option("--level", options->level,
                          "For .bpo: write the envelopes of this level instead of the exact triangles")
-            ->check(CLI::Range(0, bp_octree::max_depth))
+            ->check(whole_number(0, bp_octree::max_depth))
             ->type_name("L");
     verb->add_flag("--without-cell-faces", options->without_cell_faces,
-                   "With --level: leave out faces that lie in sides of cells; lighter, but open")
+                   "Leave out faces that lie in sides of cells; lighter, but open")
         ->needs(level);
 }
 

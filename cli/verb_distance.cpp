@@ -4,11 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "model.hpp"
-#include "program.hpp"
-#include <octavo/io/columns.hpp>
-#include <octavo/io/points.hpp>
+#include "point_query.hpp"
 #include <octavo/query/closest.hpp>
+#include <octavo/query/envelope_distance.hpp>
 
 // `octavo distance MODEL POINTS`: for each point its signed distance from the surface, negative inside, and the nearest
 // point and triangle of the surface.
@@ -16,9 +14,10 @@
 namespace octavo::cli {
 namespace {
 
-struct DistanceOptions {
-    std::string model, points, output, model_format, points_format, output_format, open = "reject";
+struct DistanceOptions : PointQueryOptions {
     bool is_unsigned = false;
+    int level = exact;
+    static constexpr int exact = -1;  ///< no level: the exact distance
 };
 
 /// The answers as columns of numbers.
@@ -38,21 +37,13 @@ struct Columns {
 };
 
 Result<Columns> answers_of(Session& session, const Context& context, const DistanceOptions& options) {
+    const Result<std::vector<Vec3>> points = read_points(session, context, options, "so are their distances");
+    if (!points) return points.error();
     Result<mesh::LatticeMesh> solid = read_on_lattice(session, context, options.model, options.model_format);
     if (!solid) return std::move(solid).error();
-    session.inputs.push_back(options.points);
-    Result<io::ReadPoints> points = session.timed(
-        "read", [&] { return io::read_points(options.points, {options.points_format}, context); });
-    if (!points) return std::move(points).error();
-    const auto nowhere = std::count_if(points->points.begin(), points->points.end(), [](Vec3 p) {
-        return std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z);
-    });
-    if (nowhere)
-        session.warn(
-            fmt::format("{} points have a coordinate that is not a number; so are their distances", nowhere));
     query::ClosestOptions asking;
     if (options.is_unsigned) asking.sign = query::ClosestOptions::Sign::none;
-    if (options.open == "winding") asking.inside.open = classic::OpenPolicy::winding;
+    asking.inside.open = options.policy();
     Result<query::ClosestQuery> query =
         session.timed("build", [&] { return query::ClosestQuery::build(*solid, asking, context); });
     if (!query) return in_file(std::move(query).error(), options.model);
@@ -60,7 +51,7 @@ Result<Columns> answers_of(Session& session, const Context& context, const Dista
         // Answers have four times the bytes of the columns; so many at a time are enough to sort well.
         constexpr std::size_t block = std::size_t{1} << 20;
         Columns columns;
-        const std::span<const Vec3> all = points->points;
+        const std::span<const Vec3> all = *points;
         for (std::size_t begin = 0; begin < all.size(); begin += block) {
             columns.append((*query)(all.subspan(begin, std::min(block, all.size() - begin)), context));
             if (context.cancelled()) return Context::cancelled_error();
@@ -68,6 +59,22 @@ Result<Columns> answers_of(Session& session, const Context& context, const Dista
         }
         return columns;
     });
+}
+
+/// Lower bounds from one level of a BP-octree, of which the beginning is enough.
+Result<Columns> bounds_of(Session& session, const Context& context, const DistanceOptions& options) {
+    const Result<std::vector<Vec3>> points = read_points(session, context, options, "so are their distances");
+    if (!points) return points.error();
+    bp_octree::ReadBpoOptions reading;
+    reading.levels = options.level;
+    reading.partial = bp_octree::ReadBpoOptions::Partial::accept;
+    Result<bp_octree::ReadBpo> file = read_bp_octree(session, context, options.model, reading);
+    if (!file) return std::move(file).error();
+    Columns columns;
+    columns.distance = session.timed(
+        "query", [&] { return query::EnvelopeDistance(file->tree, options.level)(*points, context); });
+    if (context.cancelled()) return Context::cancelled_error();
+    return columns;
 }
 
 /// min, max and mean of what is finite; null when nothing is.
@@ -91,33 +98,32 @@ Json summary_of(const std::vector<double>& distances) {
 
 Result<ExitCode> distance(Session& session, const DistanceOptions& options) {
     const Context context = session.context();
-    if (same_file(options.model, options.output) || same_file(options.points, options.output))
-        return would_overwrite(options.output);
-    const Result<Columns> answers = answers_of(session, context, options);
+    const Result<AnswerOutput> output = settle_answers(session, options);
+    if (!output) return output.error();
+    const bool is_bound = options.level != DistanceOptions::exact;
+    if (is_bound && kind_of(options.model, options.model_format) != ModelKind::bp_octree)
+        return Error{ErrorCode::unsupported, "only BP-octrees (.bpo) have levels", {}};
+    const Result<Columns> answers =
+        is_bound ? bounds_of(session, context, options) : answers_of(session, context, options);
     if (!answers) return answers.error();
     const Columns& columns = *answers;
     session.result = summary_of(columns.distance);
     session.text =
         session.result["mean"].is_null()
             ? fmt::format("{} points, none of them at a finite distance\n", grouped(columns.distance.size()))
-            : fmt::format("{} points: distance {:.6g} to {:.6g}, mean {:.6g}\n",
-                          grouped(columns.distance.size()), session.result["min"].get<double>(),
-                          session.result["max"].get<double>(), session.result["mean"].get<double>());
-    // Without --json or -o the answers themselves are the data.
-    const std::string output = options.output.empty() && !session.options.json ? "-" : options.output;
-    if (output.empty()) return ExitCode::ok;
-    session.stdout_taken = output == "-";
-    const std::vector<io::Column> written_columns{
-        {"distance", std::span<const double>(columns.distance)},
-        {"x", std::span<const double>(columns.x)},
-        {"y", std::span<const double>(columns.y)},
-        {"z", std::span<const double>(columns.z)},
-        {"triangle", std::span<const std::uint32_t>(columns.triangle)}};
-    io::WriteOptions writing;
-    writing.format = options.output_format;
-    Result<io::WriteReport> written =
-        session.timed("write", [&] { return io::write_columns(output, written_columns, writing, context); });
-    if (!written) return std::move(written).error();
+            : fmt::format("{} points: distance {} to {}, mean {}\n", grouped(columns.distance.size()),
+                          number_text(session.result["min"].get<double>()),
+                          number_text(session.result["max"].get<double>()),
+                          number_text(session.result["mean"].get<double>()));
+    std::vector<io::Column> told{{"distance", std::span<const double>(columns.distance)}};
+    if (!is_bound) {
+        told.push_back({"x", std::span<const double>(columns.x)});
+        told.push_back({"y", std::span<const double>(columns.y)});
+        told.push_back({"z", std::span<const double>(columns.z)});
+        told.push_back({"triangle", std::span<const std::uint32_t>(columns.triangle)});
+    }
+    Status status = deliver(session, context, *output, told);
+    if (!status) return std::move(status).error();
     return ExitCode::ok;
 }
 
@@ -128,28 +134,18 @@ void add_distance(Program& program) {
     CLI::App* verb = program.verb(
         "distance", "Analyse", "Tell for each point its signed distance, and what of the surface is nearest",
         [options](Session& session) { return distance(session, *options); });
-    verb->add_option("MODEL", options->model, "A closed mesh, or a BP-octree (.bpo)")
-        ->required()
-        ->type_name("FILE");
-    verb->add_option("POINTS", options->points, "The points: csv, xyz, npy or ply; - is stdin")
-        ->required()
-        ->type_name("FILE");
-    verb->add_option("-o,--output", options->output,
-                     "Where distance, x, y, z and triangle go: csv, npy or ply; stdout by default")
-        ->type_name("FILE");
-    CLI::Option* open =
-        verb->add_option("--open", options->open, "An open surface: reject it, or close it and go by winding")
-            ->check(CLI::IsMember({"reject", "winding"}))
-            ->type_name("POLICY");
+    CLI::Option* open = add_point_query_options(
+        verb, *options,
+        "A closed mesh, a CSG tree (.csg), the black cells of an octree (.oct), or a BP-octree (.bpo)",
+        "distance, x, y, z and triangle");
     verb->add_flag("--unsigned", options->is_unsigned, "Distances without a sign; the surface may be open")
         ->excludes(open);
-    verb->add_option("--format", options->model_format, "Format of MODEL, instead of by its extension")
-        ->type_name("FORMAT");
-    verb->add_option("--points-format", options->points_format,
-                     "Format of POINTS, instead of by its extension")
-        ->type_name("FORMAT");
-    verb->add_option("--to", options->output_format, "Format of the output, instead of by its extension")
-        ->type_name("FORMAT");
+    verb->add_option("--level", options->level,
+                     "For .bpo: lower bounds by the envelopes of this level, 0 within; needs only the file's "
+                     "beginning")
+        ->check(CLI::Range(0, bp_octree::max_depth))
+        ->type_name("L")
+        ->excludes(open);
 }
 
 }  // namespace octavo::cli

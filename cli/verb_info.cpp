@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "model.hpp"
+#include "octree_facts.hpp"
 #include "program.hpp"
+#include <octavo/boolean/evaluate.hpp>
+#include <octavo/classic/moments.hpp>
 #include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/validate.hpp>
 #include <octavo/mesh/weld.hpp>
+#include <octavo/octree/cell.hpp>
+#include <octavo/octree/oct_format.hpp>
 
-// `octavo info FILE`: the facts about a mesh. Whether it is a solid is `check`'s business.
+// `octavo info FILE`: the facts about a model. Whether it is a solid is `check`'s business.
+//
+// The volume, centroid and inertia of a mesh are integrals of its winding number, as everywhere in the field: space
+// that shells share counts twice. Where that is not the volume of the solid, the space of positive winding number, the
+// latter is told besides; the union of the mesh with nothing has it as its integral.
 
 namespace octavo::cli {
 namespace {
@@ -16,17 +30,61 @@ struct InfoOptions {
     std::string input, format;
 };
 
-/// What info tells, gathered.
+/// What info tells about a mesh, gathered.
 struct Facts {
     const io::ReadMesh& read;
-    const mesh::Report& report;
-    const mesh::Measures& measures;
+    mesh::Report report;
+    mesh::Measures measures;
+    bool on_lattice = true;              ///< else what needs the lattice is not known
+    std::optional<double> solid_volume;  ///< of the space of positive winding number; not of open surfaces
 
     std::uint64_t self_intersections() const {
         return report.count(mesh::ProblemKind::self_intersections) +
                report.count(mesh::ProblemKind::penetrations) + report.count(mesh::ProblemKind::overlaps);
     }
+    /// Has every point a winding number?
+    bool bounds_space() const {
+        return report.facets > 0 && report.oriented && report.count(mesh::ProblemKind::open_edges) == 0;
+    }
+    bool may_wind_twice() const {
+        return self_intersections() > 0 || report.nested_bodies > 0 ||
+               report.count(mesh::ProblemKind::duplicate_facets) > 0 ||
+               report.count(mesh::ProblemKind::inside_out_shells) > 0;
+    }
 };
+
+/// The report, without what needs the lattice where the mesh does not fit one.
+Result<mesh::Report> validate(Session& session, const Context& context, const mesh::Mesh& mesh,
+                              bool& on_lattice) {
+    mesh::ValidateOptions options;
+    Result<mesh::Report> report = mesh::validate(mesh, options, context);
+    on_lattice = report || report.error().code != ErrorCode::limit;
+    if (on_lattice) return report;
+    session.warn(report.error().sentence + "; only what needs no exact geometry is told");
+    options.topology_only = true;
+    return mesh::validate(mesh, options, context);
+}
+
+Result<Facts> gather(Session& session, const Context& context, const io::ReadMesh& read) {
+    bool on_lattice = true;
+    Result<mesh::Report> report =
+        session.timed("validate", [&] { return validate(session, context, read.mesh, on_lattice); });
+    if (!report) return std::move(report).error();
+    // Seams and soups have one surface, however often a position is stored.
+    const mesh::Mesh welded = session.timed("weld", [&] { return mesh::weld(read.mesh); });
+    Facts facts{read, std::move(*report), {}, on_lattice, {}};
+    facts.measures = session.timed("measure", [&] { return mesh::measure(welded); });
+    if (!on_lattice || !facts.bounds_space()) return facts;
+    facts.solid_volume = facts.measures.volume;
+    if (!facts.may_wind_twice()) return facts;
+    const Result<boolean::Evaluated> solid = session.timed("unite", [&] {
+        return boolean::unite({&welded, 1}, {}, context);
+    });
+    if (!solid && solid.error().code == ErrorCode::cancelled) return solid.error();
+    facts.solid_volume.reset();
+    if (solid) facts.solid_volume = mesh::measure(solid->mesh).volume;
+    return facts;
+}
 
 Json result_of(const Facts& facts) {
     const mesh::Measures& m = facts.measures;
@@ -39,8 +97,9 @@ Json result_of(const Facts& facts) {
                  {"closed", facts.report.closed},
                  {"oriented", facts.report.oriented},
                  {"manifold", facts.report.manifold},
-                 {"self_intersections", facts.self_intersections()},
+                 {"self_intersections", facts.on_lattice ? Json(facts.self_intersections()) : Json()},
                  {"volume", m.volume},
+                 {"solid_volume", facts.solid_volume ? Json(*facts.solid_volume) : Json()},
                  {"area", m.area},
                  {"centroid", json_of(m.centroid)},
                  {"inertia", inertia},
@@ -51,48 +110,111 @@ Json result_of(const Facts& facts) {
     return json;
 }
 
+std::string line(const std::string& name, const std::string& value) {
+    return fmt::format("  {:<18}  {}\n", name, value);
+}
+
+/// A matrix in columns, rounded at the digits of its largest entry.
+std::string matrix_text(const std::string& name, const std::array<std::array<double, 3>, 3>& matrix) {
+    double largest = 0;
+    for (const auto& row : matrix)
+        for (const double entry : row) largest = std::max(largest, std::fabs(entry));
+    std::string text;
+    for (std::size_t row = 0; row < 3; ++row)
+        text += line(row == 0 ? name : "",
+                     fmt::format("{:>14} {:>14} {:>14}", number_text(matrix[row][0], largest),
+                                 number_text(matrix[row][1], largest), number_text(matrix[row][2], largest)));
+    return text;
+}
+
+std::string bounds_text(const Box3& bounds) {
+    double largest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        largest = std::max({largest, std::fabs(bounds.low[axis]), std::fabs(bounds.high[axis])});
+    return line("bounds", vector_text(bounds.low, largest)) + line("", vector_text(bounds.high, largest));
+}
+
+std::string volume_text(const Facts& facts) {
+    const double volume = facts.measures.volume;
+    if (!facts.bounds_space())
+        return line("volume", number_text(volume) + " (of an open surface: means nothing)");
+    // The union rounds the points that it constructs.
+    const bool agrees = facts.solid_volume && std::fabs(*facts.solid_volume - volume) <= 1e-9 * volume;
+    if (!facts.may_wind_twice() || agrees) return line("volume", number_text(volume));
+    std::string text =
+        line("volume", number_text(volume) + " (space counts as often as the surface winds round it)");
+    if (facts.solid_volume) text += line("volume of solid", number_text(*facts.solid_volume));
+    return text;
+}
+
 std::string text_of(const Facts& facts, const std::string& name) {
     const mesh::Measures& m = facts.measures;
     const auto yes_or_no = [](bool yes) { return yes ? "yes" : "no"; };
-    const auto triple = [](Vec3 v) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", v.x, v.y, v.z); };
+    const double reach = std::max(length(m.bounds.low), length(m.bounds.high));
     std::string text = fmt::format("{} ({})\n", name, facts.read.format);
-    text += fmt::format("  vertices            {}\n", grouped(facts.report.vertices));
-    text += fmt::format("  triangles           {}\n", grouped(facts.report.facets));
-    text += fmt::format("  components          {}\n", grouped(facts.report.merged_components));
-    text += fmt::format("  closed              {}\n", yes_or_no(facts.report.closed));
-    text += fmt::format("  oriented            {}\n", yes_or_no(facts.report.oriented));
-    text += fmt::format("  self-intersections  {}\n", grouped(facts.self_intersections()));
-    text += fmt::format("  Euler number        {}{}\n", m.euler_number,
-                        m.genus ? fmt::format(" (genus {})", *m.genus) : "");
-    text += fmt::format("  volume              {:.10g}{}\n", m.volume,
-                        facts.report.closed ? "" : " (of an open surface: means nothing)");
-    text += fmt::format("  area                {:.10g}\n", m.area);
-    text += fmt::format("  centroid            {}\n", triple(m.centroid));
-    text += "  inertia             ";
-    for (int row = 0; row < 3; ++row)
-        text += (row ? "                      " : "") + fmt::format("{:>14.6g} {:>14.6g} {:>14.6g}\n",
-                                                                    m.inertia[row][0], m.inertia[row][1],
-                                                                    m.inertia[row][2]);
-    text += fmt::format("  bounds              {}\n                      {}\n", triple(m.bounds.low),
-                        triple(m.bounds.high));
-    if (!facts.read.unit.empty()) text += fmt::format("  unit                {}\n", facts.read.unit);
+    text += line("vertices", grouped(facts.report.vertices));
+    text += line("triangles", grouped(facts.report.facets));
+    text += line("components", grouped(facts.report.merged_components));
+    text += line("closed", yes_or_no(facts.report.closed));
+    text += line("oriented", yes_or_no(facts.report.oriented));
+    text += line("self-intersections", facts.on_lattice ? grouped(facts.self_intersections()) : "not known");
+    text += line("Euler number",
+                 fmt::format("{}{}", m.euler_number, m.genus ? fmt::format(" (genus {})", *m.genus) : ""));
+    text += volume_text(facts);
+    text += line("area", number_text(m.area));
+    text += line("centroid", vector_text(m.centroid, reach));
+    text += matrix_text("inertia", m.inertia);
+    text += bounds_text(m.bounds);
+    if (!facts.read.unit.empty()) text += line("unit", facts.read.unit);
     return text;
+}
+
+Result<ExitCode> mesh_info(Session& session, const Context& context, const InfoOptions& options) {
+    Result<io::ReadMesh> read = read_surface(session, context, options.input, options.format);
+    if (!read) return std::move(read).error();
+    Result<Facts> facts = gather(session, context, *read);
+    if (!facts) return in_file(std::move(facts).error(), options.input);
+    session.result = result_of(*facts);
+    session.text = text_of(*facts, options.input);
+    return ExitCode::ok;
+}
+
+/// Bounds of the black and the gray cells.
+Box3 bounds_of(const octree::Octree& tree) {
+    Box3 bounds;
+    tree.for_each_leaf([&](octree::CellKey key, octree::Color color) {
+        if (color == octree::Color::white) return;
+        const octree::Cell cell = octree::Cell::of(key);
+        bounds.add(tree.lattice().to_world(cell.low));
+        bounds.add(tree.lattice().to_world(cell.high()));
+    });
+    return bounds;
+}
+
+Result<ExitCode> octree_info(Session& session, const Context& context, const InfoOptions& options) {
+    Result<octree::Octree> tree = read_octree(session, context, options.input, options.format);
+    if (!tree) return std::move(tree).error();
+    const TreeFile file{"oct", octree::encode(*tree).size()};
+    const Box3 bounds = bounds_of(*tree);
+    const classic::Moments black = classic::moments(*tree);
+    session.result = json_of(*tree, file);
+    session.text =
+        fmt::format("{} (octree of depth {})\n", options.input, tree->depth()) + text_of(*tree, file);
+    if (bounds.empty()) return ExitCode::ok;
+    session.result["bounds"] = Json::array({json_of(bounds.low), json_of(bounds.high)});
+    session.result["centroid"] = json_of(black.centroid);
+    session.text +=
+        fmt::format("bounds     {}   to   {}\n", vector_text(bounds.low), vector_text(bounds.high));
+    session.text += fmt::format("centroid   {} (of the black cells)\n",
+                                vector_text(black.centroid, length(bounds.high) + length(bounds.low)));
+    return ExitCode::ok;
 }
 
 Result<ExitCode> info(Session& session, const InfoOptions& options) {
     const Context context = session.context();
-    Result<io::ReadMesh> read = read_mesh(session, context, options.input, options.format);
-    if (!read) return std::move(read).error();
-    Result<mesh::Report> report =
-        session.timed("validate", [&] { return mesh::validate(read->mesh, {}, context); });
-    if (!report) return in_file(std::move(report).error(), options.input);
-    // Seams and soups have one surface, however often a position is stored.
-    const mesh::Measures measures =
-        session.timed("measure", [&] { return mesh::measure(mesh::weld(read->mesh)); });
-    const Facts facts{*read, *report, measures};
-    session.result = result_of(facts);
-    session.text = text_of(facts, options.input);
-    return ExitCode::ok;
+    return kind_of(options.input, options.format) == ModelKind::octree
+               ? octree_info(session, context, options)
+               : mesh_info(session, context, options);
 }
 
 }  // namespace
@@ -100,10 +222,15 @@ Result<ExitCode> info(Session& session, const InfoOptions& options) {
 void add_info(Program& program) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* verb =
-        program.verb("info", "Inspect", "Tell the facts about a mesh: counts, volume, inertia, topology",
+        program.verb("info", "Inspect", "Tell the facts about a model: counts, volume, inertia, topology",
                      [options](Session& session) { return info(session, *options); });
-    verb->add_option("FILE", options->input, "The mesh; - is stdin")->required()->type_name("FILE");
+    verb->add_option(
+            "FILE", options->input,
+            "A mesh (- is stdin), a CSG tree (.csg; its polyhedron is measured), or an octree (.oct)")
+        ->required()
+        ->type_name("FILE");
     verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
+        ->check(check_model_format)
         ->type_name("FORMAT");
 }
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "model.hpp"
 #include "program.hpp"
-#include <octavo/io/oct.hpp>
 #include <octavo/render/png.hpp>
 #include <octavo/render/raster.hpp>
 
@@ -31,6 +29,8 @@ std::optional<Size> parse_size(const std::string& text) {
     Size size{};
     char rest = 0;
     if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2) return std::nullopt;
+    const auto possible = [](int pixels) { return pixels >= 1 && pixels <= render::largest_picture; };
+    if (!possible(size.width) || !possible(size.height)) return std::nullopt;
     return size;
 }
 
@@ -53,11 +53,15 @@ std::optional<Cut> parse_cut(const std::string& text, const Box3& bounds) {
 }
 
 std::string check_size(const std::string& text) {
-    return parse_size(text) ? "" : "wants WIDTHxHEIGHT, for example 1200x900";
+    if (parse_size(text)) return "";
+    return fmt::format("must be WIDTHxHEIGHT, each 1 to {}, for example 1200x900, not {}",
+                       render::largest_picture, text);
 }
 
 std::string check_cut(const std::string& text) {
-    return parse_cut(text, {}) ? "" : "wants x, y or z, and perhaps a share: y:0.4 keeps the first 40 %";
+    if (parse_cut(text, {})) return "";
+    return fmt::format(
+        "must be x, y or z, and perhaps a share from 0 to 1: y:0.4 keeps the first 40 %; not {}", text);
 }
 
 render::EdgeLines lines_of(const std::string& word, render::EdgeLines automatic) {
@@ -70,23 +74,19 @@ render::EdgeLines lines_of(const std::string& word, render::EdgeLines automatic)
 /// What is drawn, and where it is cut.
 struct Subject {
     render::Scene scene;
-    Box3 bounds;
     Cut cut;
 };
 
-Result<Subject> mesh_subject(Session& session, const Context& context, const RenderOptions& options) {
-    Result<io::ReadMesh> read = read_mesh(session, context, options.input, options.format);
+Result<Subject> surface_subject(Session& session, const Context& context, const RenderOptions& options) {
+    Result<io::ReadMesh> read = read_surface(session, context, options.input, options.format);
     if (!read) return std::move(read).error();
     render::MeshSceneOptions scene;
     scene.edges = lines_of(options.edges, render::EdgeLines::sharp);
-    const Box3 bounds = read->mesh.bounds();
-    return Subject{render::scene_of(read->mesh, scene), bounds, *parse_cut(options.cut, bounds)};
+    return Subject{render::scene_of(read->mesh, scene), *parse_cut(options.cut, read->mesh.bounds())};
 }
 
 Result<Subject> octree_subject(Session& session, const Context& context, const RenderOptions& options) {
-    session.inputs.push_back(options.input);
-    Result<octree::Octree> tree =
-        session.timed("read", [&] { return io::read_octree(options.input, context); });
+    Result<octree::Octree> tree = read_octree(session, context, options.input, options.format);
     if (!tree) return std::move(tree).error();
     render::OctreeSceneOptions scene;
     scene.edges = lines_of(options.edges, render::EdgeLines::all);
@@ -95,33 +95,31 @@ Result<Subject> octree_subject(Session& session, const Context& context, const R
     scene.cut_axis = cut.axis;
     scene.cut_at = cut.at;
     // The scene leaves out whole cells, so the drawing must not cut through those that stay.
-    render::Scene kept = render::scene_of(*tree, scene);
-    const Box3 kept_bounds = kept.bounds();
-    return Subject{std::move(kept), kept_bounds, Cut{}};
+    return Subject{render::scene_of(*tree, scene), Cut{}};
 }
 
 Result<ExitCode> render_model(Session& session, const RenderOptions& options) {
     const Context context = session.context();
-    const std::string extension = std::filesystem::path(options.output).extension().string();
-    if (extension != ".png")
-        return Error{
-            ErrorCode::unsupported, "pictures are written as .png, and the output is " + options.output, {}};
+    const Result<std::string> format =
+        settle_output(session, {options.input}, options.output, "", picture_outputs());
+    if (!format) return format.error();
     const Size size = *parse_size(options.size);
 
     Result<Subject> subject = kind_of(options.input, options.format) == ModelKind::octree
                                   ? octree_subject(session, context, options)
-                                  : mesh_subject(session, context, options);
+                                  : surface_subject(session, context, options);
     if (!subject) return std::move(subject).error();
-    Box3 in_view = subject->bounds;
-    in_view.high[subject->cut.axis] = std::min(in_view.high[subject->cut.axis], subject->cut.at);
+    const std::vector<Vec3> in_view = subject->scene.corners(subject->cut.axis, subject->cut.at);
     Result<render::Camera> camera = render::Camera::look_at(in_view, options.view, size.width, size.height);
-    if (!camera) return std::move(camera).error();
+    if (!camera) return in_file(std::move(camera).error(), options.input);
     render::DrawOptions drawing{.width = size.width, .height = size.height};
     drawing.cut_axis = subject->cut.axis;
     drawing.cut_at = subject->cut.at;
+    drawing.outline_cap = options.edges != "none";
     Result<render::Image> image =
         session.timed("draw", [&] { return render::draw(subject->scene, *camera, drawing, context); });
     if (!image) return std::move(image).error();
+    session.stdout_taken = options.output == "-";
     Status written = session.timed("write", [&] { return render::write_png(options.output, *image); });
     if (!written) return std::move(written).error();
 
@@ -138,32 +136,42 @@ Result<ExitCode> render_model(Session& session, const RenderOptions& options) {
 
 void add_render(Program& program) {
     const auto options = std::make_shared<RenderOptions>();
-    CLI::App* verb = program.verb("render", "Inspect", "Draw a picture of a mesh or an octree",
+    CLI::App* verb = program.verb("render", "Inspect", "Draw a picture of a model, whole or cut open",
                                   [options](Session& session) { return render_model(session, *options); });
-    verb->add_option("MODEL", options->input, "A mesh, or an octree (.oct)")->required()->type_name("FILE");
-    verb->add_option("-o,--output", options->output, "The picture to write: .png")
+    verb->add_option("MODEL", options->input, "A mesh (- is stdin), a CSG tree (.csg), or an octree (.oct)")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("-o,--output", options->output, "The picture to write: png; - is stdout")
         ->required()
         ->type_name("FILE");
     verb->add_option("--format", options->format, "Format of MODEL, instead of by its extension")
+        ->check(check_model_format)
         ->type_name("FORMAT");
-    verb->add_option("--size", options->size, "Pixels of the picture, 1200x900 by default")
+    verb->add_option("--size", options->size, "Pixels of the picture")
         ->check(check_size)
-        ->type_name("WxH");
+        ->type_name("WxH")
+        ->capture_default_str();
     verb->add_option("--azimuth", options->view.azimuth_degrees,
-                     "Where the viewer stands: 0 in front, 90 right")
-        ->type_name("DEGREES");
-    verb->add_option("--elevation", options->view.elevation_degrees, "How high: 0 level, 90 from above")
-        ->type_name("DEGREES");
-    verb->add_option("--perspective", options->view.perspective,
-                     "Field of view; 0, the default, is orthographic")
-        ->type_name("DEGREES");
+                     "Where the viewer stands: 0 in front, 90 right, -360 to 360")
+        ->check(number_between(-360, 360))
+        ->type_name("DEGREES")
+        ->capture_default_str();
+    verb->add_option("--elevation", options->view.elevation_degrees,
+                     "How high: 0 level, 90 from above, -90 to 90")
+        ->check(number_between(-90, 90))
+        ->type_name("DEGREES")
+        ->capture_default_str();
+    verb->add_option("--perspective", options->view.perspective, "Field of view, 0 to 120; 0 is orthographic")
+        ->check(number_between(0, render::widest_view))
+        ->type_name("DEGREES")
+        ->capture_default_str();
     verb->add_option("--cut", options->cut,
                      "Cut open across an axis: x, y or z, or for example x:0.4 to keep 40 %")
         ->check(check_cut)
         ->type_name("AXIS");
-    verb->add_option("--edges", options->edges, "Lines to draw: auto, none, sharp or all")
-        ->check(CLI::IsMember({"auto", "none", "sharp", "all"}))
-        ->type_name("KIND");
+    take_one_of(verb->add_option("--edges", options->edges,
+                                 "Lines to draw; auto is sharp for surfaces and all for octrees"),
+                {"auto", "none", "sharp", "all"});
 }
 
 }  // namespace octavo::cli

@@ -28,7 +28,9 @@ Json steps_of(const mesh::RepairReport& report) {
 
 Result<ExitCode> repair(Session& session, const RepairOptions& options) {
     const Context context = session.context();
-    if (same_file(options.input, options.output)) return would_overwrite(options.output);
+    const Result<std::string> format =
+        settle_output(session, {options.input}, options.output, options.to, mesh_outputs());
+    if (!format) return format.error();
     Result<io::ReadMesh> read = read_mesh(session, context, options.input, options.from);
     if (!read) return std::move(read).error();
     Result<mesh::Repaired> repaired =
@@ -38,8 +40,7 @@ Result<ExitCode> repair(Session& session, const RepairOptions& options) {
         session.timed("validate", [&] { return mesh::validate(repaired->mesh, {}, context); });
     if (!after) return in_file(std::move(after).error(), options.input);
 
-    io::WriteOptions writing;
-    writing.format = options.to;
+    io::WriteOptions writing{.format = *format};
     if (!read->unit.empty()) writing.unit = read->unit;
     Result<io::WriteReport> written = write_mesh(session, context, options.output, repaired->mesh, writing);
     if (!written) return std::move(written).error();
@@ -57,10 +58,12 @@ void add_repair(Program& program) {
     CLI::App* verb = program.verb("repair", "Edit", "Mend what can be mended without guessing, and list it",
                                   [options](Session& session) { return repair(session, *options); });
     verb->add_option("IN", options->input, "The mesh to mend; - is stdin")->required()->type_name("FILE");
-    verb->add_option("-o,--output", options->output, "The mesh to write; - is stdout")
+    verb->add_option("-o,--output", options->output,
+                     "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")
         ->required()
         ->type_name("FILE");
     verb->add_option("--from", options->from, "Format of IN, instead of by its extension")
+        ->check(check_model_format)
         ->type_name("FORMAT");
     verb->add_option("--to", options->to, "Format of the output, instead of by its extension")
         ->type_name("FORMAT");

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "model.hpp"
 #include "option_checks.hpp"
 #include "program.hpp"
+#include "suggestion.hpp"
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/mesh/transform.hpp>
 
@@ -16,8 +18,8 @@ namespace octavo::cli {
 namespace {
 
 struct ShapeOptions {
-    std::string name, output;
-    std::uint32_t detail = 0;
+    std::string name, output, to;
+    std::optional<std::uint32_t> detail;
     double size = 1;
 };
 
@@ -76,25 +78,32 @@ std::string names() {
 }
 
 std::string check_name(const std::string& name) {
-    return shapes().count(name) ? "" : name + " is none of " + names();
+    if (shapes().count(name)) return "";
+    std::vector<std::string> known;
+    for (const auto& [one, shape] : shapes()) known.push_back(one);
+    const std::string meant = nearest_word(name, known);
+    return fmt::format("must be one of {}, not {}{}", names(), name,
+                       meant.empty() ? "" : "; did you mean " + meant + "?");
 }
 
 Result<ExitCode> make_shape(Session& session, const ShapeOptions& options) {
     const Context context = session.context();
     const Shape& shape = shapes().at(options.name);
-    const std::uint32_t detail = options.detail ? options.detail : shape.detail;
+    const std::uint32_t detail = options.detail.value_or(shape.detail);
+    if (options.detail && shape.least_detail == shape.most_detail)
+        return session.usage_error(fmt::format("--detail: a {} has none to choose", options.name));
     if (detail < shape.least_detail || detail > shape.most_detail)
-        return Error{ErrorCode::bad_input,
-                     fmt::format("the detail of a {} must lie between {} and {}", options.name,
-                                 shape.least_detail, shape.most_detail),
-                     {}};
+        return session.usage_error(fmt::format("--detail of a {} must be {} to {}, not {}", options.name,
+                                               shape.least_detail, shape.most_detail, detail));
+    const Result<std::string> format = settle_output(session, {}, options.output, options.to, mesh_outputs());
+    if (!format) return format.error();
     mesh::Mesh mesh = session.timed("generate", [&] { return shape.make(detail); });
     if (options.size != 1) {
         Affine scale;
         for (int axis = 0; axis < 3; ++axis) scale.m[axis][axis] = options.size;
         mesh = mesh::transform(mesh, scale);
     }
-    Result<io::WriteReport> report = write_mesh(session, context, options.output, mesh);
+    Result<io::WriteReport> report = write_mesh(session, context, options.output, mesh, {.format = *format});
     if (!report) return std::move(report).error();
     session.result = {
         {"vertices", mesh.vertices.size()}, {"triangles", mesh.triangles.size()}, {"bytes", report->bytes}};
@@ -109,15 +118,24 @@ void add_shape(Program& program) {
     const auto options = std::make_shared<ShapeOptions>();
     CLI::App* verb = program.verb("shape", "Make", "Generate a solid to try things on",
                                   [options](Session& session) { return make_shape(session, *options); });
-    verb->add_option("NAME", options->name, "One of " + names())->required()->check(check_name);
-    verb->add_option("-o,--output", options->output, "The mesh to write; - is stdout")
+    verb->add_option("NAME", options->name, "One of " + names())
+        ->required()
+        ->check(check_name)
+        ->type_name("NAME");
+    verb->add_option("-o,--output", options->output,
+                     "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")
         ->required()
         ->type_name("FILE");
-    verb->add_option("--detail", options->detail, "How finely it is divided: segments, teeth or levels")
+    verb->add_option("--detail", options->detail,
+                     "How finely it is divided: segments, teeth or levels; each shape has its default")
+        ->check(whole_number(0, 1'000'000'000))
         ->type_name("N");
     verb->add_option("--size", options->size, "Factor by which it is scaled")
         ->check(check_positive)
-        ->type_name("FACTOR");
+        ->type_name("FACTOR")
+        ->capture_default_str();
+    verb->add_option("--to", options->to, "Format of the output, instead of by its extension")
+        ->type_name("FORMAT");
 }
 
 }  // namespace octavo::cli

@@ -3,7 +3,6 @@
 #include "model.hpp"
 #include "octree_facts.hpp"
 #include "program.hpp"
-#include <octavo/io/oct.hpp>
 #include <octavo/octree/oct_format.hpp>
 
 // `octavo stats FILE`: what is inside a file that Octavo built (.oct, .bpo).
@@ -24,12 +23,11 @@ Result<ExitCode> bp_octree_stats(Session& session, const Context& context, const
 Result<ExitCode> stats(Session& session, const std::string& input) {
     const Context context = session.context();
     if (kind_of(input, "") == ModelKind::bp_octree) return bp_octree_stats(session, context, input);
-    session.inputs.push_back(input);
-    Result<octree::Octree> tree = session.timed("read", [&] { return io::read_octree(input, context); });
+    Result<octree::Octree> tree = read_octree(session, context, input);
     if (!tree) return std::move(tree).error();
-    const std::size_t bytes = octree::encode(*tree).size();
-    session.result = json_of(*tree, bytes);
-    session.text = text_of(*tree, bytes);
+    const TreeFile file{"oct", octree::encode(*tree).size()};
+    session.result = json_of(*tree, file);
+    session.text = text_of(*tree, file);
     return ExitCode::ok;
 }
 

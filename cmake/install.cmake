@@ -15,11 +15,16 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/OctavoConfig.cmake ${CMAKE_CURRENT_BIN
 
 install(TARGETS octavo_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 # The program writes both itself, from the definitions that it parses with.
-add_custom_command(OUTPUT octavo.1 octavo.bash
+add_custom_command(OUTPUT octavo.1 octavo.bash octavo.zsh octavo.fish
                    COMMAND octavo_program man > octavo.1
                    COMMAND octavo_program completion bash > octavo.bash
+                   COMMAND octavo_program completion zsh > octavo.zsh
+                   COMMAND octavo_program completion fish > octavo.fish
                    DEPENDS octavo_program VERBATIM)
-add_custom_target(octavo_manual ALL DEPENDS octavo.1 octavo.bash)
+add_custom_target(octavo_manual ALL DEPENDS octavo.1 octavo.bash octavo.zsh octavo.fish)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/octavo.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/octavo.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME octavo)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/octavo.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+        RENAME _octavo)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/octavo.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)

@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
         const std::string name = std::filesystem::path(argv[i]).stem().string();
         octavo::io::CsgReadOptions options;
         options.faceted = true;
+        options.skip_unsupported = true;  // as OpenSCAD does, which leaves open polyhedra out
         const double start = cpu_seconds();
         const octavo::Result<octavo::io::CsgFile> file = octavo::io::read_csg(argv[i], options);
         const double seconds = cpu_seconds() - start;

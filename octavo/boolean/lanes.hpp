@@ -36,21 +36,20 @@ BlockWords load_block(const Word* from) {
     return words;
 }
 
-/// Bit k: lane k is set.
-inline unsigned bits(Flags flags) {
+/// Bit k: lane k of a comparison is set. A template, since comparing doubles gives lanes of long with g++, of long
+/// long with clang.
+template <class Lanes>
+unsigned bits(Lanes flags) {
+    constexpr int width = sizeof flags / sizeof flags[0];
+    static_assert(sizeof flags == 32 && (width == half_block || width == FacetBlock::width));
 #if defined(__AVX2__)
-    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(flags)));
-#else
-    return static_cast<unsigned>((flags[0] & 1) | (flags[1] & 2) | (flags[2] & 4) | (flags[3] & 8));
-#endif
-}
-inline unsigned bits(BlockWords flags) {
-#if defined(__AVX2__)
-    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(flags)));
+    if constexpr (width == half_block)
+        return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(flags)));
+    else
+        return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(flags)));
 #else
     unsigned all = 0;
-    for (int lane = 0; lane < FacetBlock::width; ++lane)
-        all |= static_cast<unsigned>(flags[lane] & 1) << lane;
+    for (int lane = 0; lane < width; ++lane) all |= static_cast<unsigned>(flags[lane] & 1) << lane;
     return all;
 #endif
 }

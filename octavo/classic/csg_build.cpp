@@ -96,7 +96,13 @@ Result<DfCode> build_classic(const csg::Program& program, int depth, CsgBuildSta
         octree::descend(GrayCells(descent, combined->code), context, {.phase = "gray cells"});
     if (!resolved) return resolved.error();
     stats.resolved = counters.resolved;
-    return resolved->take_code();
+    // The second look reads one octree, writes another and prunes programs on the way.
+    const std::uint64_t nodes = combined->code.size() + resolved->peak();
+    DfCode code = resolved->take_code();
+    stats.peak_nodes = std::max(stats.peak_nodes, nodes);
+    stats.peak_bytes = std::max<std::uint64_t>(
+        stats.peak_bytes, combined->code.memory_bytes() + code.memory_bytes() + counters.program_bytes);
+    return code;
 }
 
 /// The level whose cells have at most this side in the world; none when that is below the last.

@@ -16,8 +16,9 @@
 // left eight times, come back) costs more than looking. A surface in 64 cells costs twice what it does in eight, and
 // the two levels have nine times eight cells. The 125 corners of the cells are evaluated as well: a cell with one
 // strictly inside and one strictly outside is proved to be gray. Measured on 10 000 space-filling primitives at
-// depth 8, one level at a time took 2.3 times as long for the whole tree. Three levels at once were not tried: cells
-// that are decided two levels up would be looked at in vain.
+// depth 8: 438 million instructions for the whole octree, 565 with one level at a time. Tried and lost: the middles of
+// the cells as more points, since what the corners leave open is nearly always white. Not tried: three levels at once,
+// where cells decided two levels up would be looked at in vain.
 
 namespace octavo::csg {
 

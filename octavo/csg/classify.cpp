@@ -29,6 +29,13 @@ ConstraintSides sides_of_constraint(const Program& program, std::uint32_t id, co
             static_cast<std::uint8_t>(~octants_with_corner(~sides.points.inside))};
 }
 
+/// Whether the leaf's box is at most half as wide as an octant, so that it cannot fill one and meets few.
+bool is_small(const Leaf& leaf, const octree::Cell& parent) {
+    std::int32_t widest = 0;
+    for (std::size_t a = 0; a < 3; ++a) widest = std::max(widest, leaf.high[a] - leaf.low[a]);
+    return widest <= parent.side() / 4;
+}
+
 Seen classify_convex(const Program& program, std::span<const std::uint32_t> constraints,
                      const octree::Cell& parent, std::uint8_t needed, const BoxSides& box, Remains& remains) {
     std::uint8_t* const matters = remains.matters.room(constraints.size());
@@ -80,11 +87,16 @@ Seen classify_polyhedron(const LatticePolyhedron& polyhedron, Payload payload, c
 
 Seen classify(const Program& program, const Leaf& leaf, Payload payload, const octree::Cell& parent,
               std::uint8_t needed, Remains& remains) {
+    remains.whole = false;
     const BoxSides box(leaf, parent);
     const std::uint8_t white = box.white();
     remains.tests += static_cast<std::uint64_t>(std::popcount(static_cast<unsigned>(needed & ~white)));
     if (leaf.kind == LeafKind::box) return {{white, box.black()}, {box.outside(), box.inside()}};
     if ((white & needed) == needed) return {{white, 0}, {box.outside(), 0}};
+    if (leaf.kind == LeafKind::convex && is_small(leaf, parent)) {
+        remains.whole = true;
+        return {{white, 0}, {box.outside(), 0}};
+    }
     switch (leaf.kind) {
         case LeafKind::convex:
             return classify_convex(program, payload.all ? program.constraints_of(leaf) : payload.items,

@@ -10,7 +10,8 @@
 // are inside, and gray where one is and one is not; a half space is white where none is, a quadric where its tangent
 // keeps off. White and black are never wrong. Gray is not yet tight: octants that an edge or a bulge of a body passes
 // by may be left gray, because on the way down a cell too many costs less than the question whether it is needed;
-// second_look.hpp asks it on the last level. Meshes are exact.
+// second_look.hpp asks it on the last level. Of a body that is small beside the octants, only the bounding box is
+// looked at: most leaves of a large scene, on the levels where all of them are read. Meshes are exact.
 
 namespace octavo::csg {
 
@@ -19,6 +20,7 @@ namespace octavo::csg {
 struct Remains {
     Scratch<std::uint8_t> matters;   ///< one byte an item, one bit an octant; appended by each leaf
     Scratch<std::int32_t> windings;  ///< eight for each polyhedron
+    bool whole = false;              ///< all of the leaf last looked at is left, wherever it is gray
     std::uint64_t tests = 0;         ///< octants in which a primitive was looked at, beyond its bounding box
 };
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <octavo/csg/prune.hpp>
 
 namespace octavo::csg {
@@ -23,6 +25,7 @@ Seen Pruner::evaluate(const Program& program, std::span<const std::uint32_t> wor
         node.windings = static_cast<std::uint32_t>(remains_.windings.size());
         const Leaf& leaf = program.leaves[word::leaf(words[at])];
         Seen seen = classify(program, leaf, payload_at(words, at), parent, needed, remains_);
+        node.whole = remains_.whole;
         node.met = seen.points.inside != 0 || seen.octants.black != 0;
         if (words[at] & word::complement_bit) seen = complement(seen);
         node.colors = seen.octants;
@@ -47,6 +50,7 @@ void Pruner::prune(std::span<const std::uint32_t> words, int octant, Scratch<std
         buffer.room(2 * words.size() + remains_.matters.size() + remains_.windings.size() + 1);
     const auto write = [&](std::uint32_t at, std::uint32_t* to) {
         const Node& node = nodes_[at];
+        if (node.whole) return std::copy_n(words.data() + at, word::size(words.data() + at), to);
         const std::uint8_t* const matters = remains_.matters.data() + node.matters;
         const bool polyhedron = program_->leaves[word::leaf(words[at])].kind == LeafKind::polyhedron;
         const std::int32_t winding =

@@ -48,6 +48,7 @@ class Pruner {
     struct Node {
         OctantColors colors;
         bool met;                         // of a leaf: a point lies strictly inside it
+        bool whole;                       // of a leaf: all of it is left
         std::uint32_t evaluation;         // of a leaf: the last in which it was looked at
         std::uint32_t matters, windings;  // of a leaf: where its part of `remains_` begins
     };

@@ -46,10 +46,13 @@ Result<Lattice> Lattice::fit(const Box3& content) {
     if (content.empty() || !is_finite(content.low) || !is_finite(content.high))
         return Error{ErrorCode::bad_input, "the bounds of the content are empty or not finite", {}};
     if (!is_finite(content.extents()))
-        return Error{ErrorCode::limit, "the content is larger than a double can tell", {}};
+        return Error{ErrorCode::limit, "the content is larger than a double can hold", {}};
     int exponent = first_exponent(content);
     if (exponent < least_exponent)
-        return Error{ErrorCode::limit, "the content is smaller than the finest lattice; scale it up", {}};
+        return Error{ErrorCode::limit,
+                     "the content is too small for a lattice: its longest side must be 0 or at least 2^-975, "
+                     "or 3e-294; scale it up",
+                     {}};
 
     // A few steps, unless the content lies far from the world's origin for its size: then the unit grows to the
     // spacing of doubles there, so that nothing that the input could express is lost.
@@ -60,7 +63,10 @@ Result<Lattice> Lattice::fit(const Box3& content) {
         const auto z = origin_for(content.low.z, content.high.z, unit);
         if (x && y && z) return from_parts(exponent, {*x, *y, *z});
     }
-    return Error{ErrorCode::limit, "the content is larger than the lattice can hold", {}};
+    return Error{
+        ErrorCode::limit,
+        "the content is larger than a lattice can hold: its longest side must stay below 2^926, or 5e278",
+        {}};
 }
 
 Result<Lattice> Lattice::from_parts(int exponent, std::array<std::int64_t, 3> origin) {

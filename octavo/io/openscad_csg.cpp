@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include <octavo/io/input.hpp>
@@ -22,19 +23,24 @@ class Evaluator {
         if (syntax_.nodes.empty()) return syntax_.error_at(0, "the file holds no node", ErrorCode::bad_input);
         mark();
         geometry_.resize(syntax_.nodes.size());
-        // Children have greater indices than their parents.
-        for (std::size_t i = syntax_.nodes.size(); i-- > 0;) {
-            if (i % 256 == 0 && context_.cancelled()) return Context::cancelled_error();
-            if (marks_[i] & skipped) continue;
-            Result<Geometry> geometry = evaluate(static_cast<std::uint32_t>(i));
-            if (!geometry) return with_place(geometry.error(), syntax_.nodes[i]);
-            geometry_[i] = std::move(*geometry);
+        // Leaves in the order of the file, so that the first one that is wrong is reported first; then operations,
+        // from the last on, as children have greater indices than their parents.
+        const std::size_t count = syntax_.nodes.size();
+        for (std::size_t step = 0; step < 2 * count; ++step) {
+            if (step % 256 == 0 && context_.cancelled()) return Context::cancelled_error();
+            const std::size_t i = step < count ? step : 2 * count - 1 - step;
+            if (marks_[i] & (skipped | made)) continue;
+            std::optional<Result<Geometry>> geometry = step < count ? leaf(i) : operation(i);
+            if (!geometry) continue;
+            if (!*geometry) return with_place(geometry->error(), syntax_.nodes[i]);
+            geometry_[i] = std::move(**geometry);
+            marks_[i] |= made;
         }
         return finish();
     }
 
   private:
-    static constexpr std::uint8_t skipped = 1, faceted = 2;
+    static constexpr std::uint8_t skipped = 1, faceted = 2, made = 4;
 
     /// Which nodes are left out and which are below one that needs polyhedra: parents come first. With a '!', only
     /// that sub-tree is evaluated.
@@ -59,15 +65,18 @@ class Evaluator {
         }
     }
 
-    Result<Geometry> evaluate(std::uint32_t index) {
+    Scope scope_of(std::size_t index) {
+        return {syntax_, options_, context_, folder_, file_.warnings, (marks_[index] & faceted) != 0};
+    }
+    /// Nothing when the node is an operation.
+    std::optional<Result<Geometry>> leaf(std::size_t index) {
+        std::optional<Result<Geometry>> made_leaf = make_leaf(syntax_.nodes[index], scope_of(index));
+        if (made_leaf) ++file_.primitives;
+        return made_leaf;
+    }
+    Result<Geometry> operation(std::size_t index) {
         const Node& node = syntax_.nodes[index];
-        const Scope scope{syntax_, options_,       context_,
-                          folder_, file_.warnings, (marks_[index] & faceted) != 0};
-        if (std::optional<Result<Geometry>> leaf = make_leaf(node, scope)) {
-            ++file_.primitives;
-            return std::move(*leaf);
-        }
-        return make_inner(node, children_of(node.first_child), scope);
+        return make_inner(node, children_of(node.first_child), scope_of(index));
     }
 
     std::vector<Geometry> children_of(std::uint32_t first) {

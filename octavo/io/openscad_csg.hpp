@@ -13,7 +13,7 @@
 // Reads OpenSCAD's .csg: the tree of a program after all variables, loops and modules have been evaluated.
 //
 // Three steps, none of them recursive, so that no nesting overruns the stack: the text becomes tokens, the tokens a
-// flat syntax tree (openscad_csg_syntax.hpp), and the tree is evaluated from its last node to its first, children
+// flat syntax tree (openscad_csg_syntax.hpp), and of that the leaves are evaluated in order, then operations, children
 // before parents (openscad_csg_evaluate.hpp). Flat geometry stays polygons; solids become a csg::Expr with the
 // primitives kept as primitives.
 //

@@ -29,13 +29,20 @@ Result<Geometry> finish(const Parameters& p, Geometry geometry) {
     return geometry;
 }
 
+/// Of a primitive without extent, as OpenSCAD has it: nothing, and a warning.
+Result<Geometry> nothing_of(const Node& node, const Scope& scope, const Parameters& p, const char* what) {
+    if (p.error()) return *p.error();
+    scope.warn(node, std::string(node.name) + "(…) is empty: " + what + " must be positive");
+    return Geometry::none();
+}
+
 Result<Geometry> cube(const Node& node, const Scope& scope) {
     Parameters p(scope.syntax, node, {"size", "center"});
     const std::array<double, 3> size = p.vector<3>("size", {1, 1, 1});
     const double shift = p.boolean("center", false) ? -0.5 : 0;
     const csg::Cuboid cuboid{{shift * size[0], shift * size[1], shift * size[2]},
                              {(1 + shift) * size[0], (1 + shift) * size[1], (1 + shift) * size[2]}};
-    if (csg::is_degenerate(cuboid)) return finish(p, Geometry::none());
+    if (csg::is_degenerate(cuboid)) return nothing_of(node, scope, p, "its sizes");
     return finish(p, Geometry::of(csg::Expr(cuboid)));
 }
 
@@ -43,7 +50,7 @@ Result<Geometry> sphere(const Node& node, const Scope& scope) {
     Parameters p(scope.syntax, node, {"r"});
     const double r = radius(p, "r", "d", 1);
     const int segments = csg::segments_of(r, p.roundness());
-    if (p.error() || !(r > 0)) return finish(p, Geometry::none());
+    if (p.error() || !(r > 0)) return nothing_of(node, scope, p, "its radius");
     if (!scope.faceted) return Geometry::of(csg::Expr(csg::Ball{r}));
     if (std::optional<Error> error = scope.too_large(node, 0.5 * segments * segments)) return *error;
     return Geometry::of(convex(csg::faceted_ball(r, segments)));
@@ -57,7 +64,8 @@ Result<Geometry> cylinder(const Node& node, const Scope& scope) {
     const bool centered = p.boolean("center", false);
     const csg::Frustum frustum{centered ? -h / 2 : 0, centered ? h / 2 : h, bottom, top};
     const int segments = csg::segments_of(std::max(bottom, top), p.roundness());
-    if (p.error() || csg::is_degenerate(frustum)) return finish(p, Geometry::none());
+    if (p.error() || csg::is_degenerate(frustum))
+        return nothing_of(node, scope, p, "its height and one radius at least");
     if (!scope.faceted) return Geometry::of(csg::Expr(frustum));
     return Geometry::of(convex(csg::faceted_frustum(frustum.low, frustum.high, bottom, top, segments)));
 }
@@ -106,7 +114,7 @@ Result<Geometry> square(const Node& node, const Scope& scope) {
     const std::array<double, 2> size = p.vector<2>("size", {1, 1});
     const double x = p.boolean("center", false) ? -size[0] / 2 : 0,
                  y = p.boolean("center", false) ? -size[1] / 2 : 0;
-    if (p.error() || !(size[0] > 0) || !(size[1] > 0)) return finish(p, Geometry::none());
+    if (p.error() || !(size[0] > 0) || !(size[1] > 0)) return nothing_of(node, scope, p, "its sizes");
     return Geometry::of(
         csg::Region{{{{x, y}, {x + size[0], y}, {x + size[0], y + size[1]}, {x, y + size[1]}}}});
 }
@@ -115,7 +123,7 @@ Result<Geometry> circle(const Node& node, const Scope& scope) {
     Parameters p(scope.syntax, node, {"r"});
     const double r = radius(p, "r", "d", 1);
     const int segments = csg::segments_of(r, p.roundness());
-    if (p.error() || !(r > 0)) return finish(p, Geometry::none());
+    if (p.error() || !(r > 0)) return nothing_of(node, scope, p, "its radius");
     return Geometry::of(csg::Region{{csg::circle(r, segments)}});
 }
 

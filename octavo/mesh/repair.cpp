@@ -3,6 +3,7 @@
 #include <array>
 #include <numeric>
 
+#include <octavo/base/grouped.hpp>
 #include <octavo/mesh/repair.hpp>
 #include <octavo/mesh/repair_steps.hpp>
 #include <octavo/mesh/topology.hpp>
@@ -46,9 +47,8 @@ void note(RepairReport& report, RepairKind kind, RepairDone done) {
     std::sort(done.faces.begin(), done.faces.end());
     done.faces.erase(std::unique(done.faces.begin(), done.faces.end()), done.faces.end());
     const Wording& wording = wording_of(kind);
-    report.steps.push_back(
-        {kind, done.count, std::move(done.faces),
-         std::to_string(done.count) + " " + (done.count == 1 ? wording.one : wording.many)});
+    report.steps.push_back({kind, done.count, std::move(done.faces),
+                            grouped(done.count) + " " + (done.count == 1 ? wording.one : wording.many)});
 }
 
 /// The lattice position of every used vertex.

@@ -23,6 +23,7 @@ enum class ProblemKind : std::uint8_t {
     overlaps,            ///< pairs in one plane with common area
     duplicate_facets,    ///< facets with the same vertices as an earlier one
     inside_out_shells,   ///< closed shells inside of which the winding number is negative
+    flat_shells,         ///< closed shells that enclose no volume on the lattice
     // From here on: worth knowing, but a solid may have them.
     non_manifold_edges,     ///< edges with more than two facets
     non_manifold_vertices,  ///< vertices at which surfaces only touch
@@ -65,6 +66,8 @@ struct Report {
     std::uint32_t merged_components = 0;  ///< after merging
     std::uint32_t shells = 0;             ///< joined by shared edges, after merging
     std::uint32_t cavities = 0;           ///< closed shells that look inwards, rightly
+    std::uint32_t nested_bodies =
+        0;                         ///< closed shells inside others, both outwards: legal, but they wind twice
     double snap_displacement = 0;  ///< how far the lattice moves a vertex at most, in units of the file
 
     /// The number of problems of the kind; 0 when there is none.

@@ -47,6 +47,10 @@ struct Shell {
     }
     bool inside_out() const { return closed && volume6 < 0 && winding_around() <= 0; }
     bool cavity() const { return closed && volume6 < 0 && winding_around() > 0; }
+    /// A double sheet, or a body too thin for the lattice.
+    bool flat() const { return closed && volume6 == 0; }
+    /// Space in it is enclosed by another shell already.
+    bool nested_body() const { return closed && volume6 > 0 && winding_around() > 0; }
 };
 
 struct Shells {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include <octavo/base/grouped.hpp>
 #include <octavo/exact/orient.hpp>
 #include <octavo/mesh/orient2d.hpp>
 #include <octavo/mesh/self_intersection.hpp>
@@ -23,7 +24,7 @@ struct Finding {
 
 /// "1 edge has" / "12 edges have".
 std::string counted(std::uint64_t count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
+    return grouped(count) + " " + (count == 1 ? one : many);
 }
 
 std::string sentence_of(ProblemKind kind, std::uint64_t n) {
@@ -44,6 +45,9 @@ std::string sentence_of(ProblemKind kind, std::uint64_t n) {
             return counted(n, "pair of facets overlaps in a plane", "pairs of facets overlap in a plane");
         case ProblemKind::inside_out_shells:
             return counted(n, "closed shell is inside out", "closed shells are inside out");
+        case ProblemKind::flat_shells:
+            return counted(n, "closed shell encloses no volume on the lattice",
+                           "closed shells enclose no volume on the lattice");
         case ProblemKind::non_manifold_edges:
             return counted(n, "edge has more than two facets", "edges have more than two facets");
         case ProblemKind::non_manifold_vertices:
@@ -85,6 +89,10 @@ class Validation {
         context_.report("check", 0);
         judge_edges();
         judge_vertices();
+        if (options_.topology_only) {
+            conclude();
+            return std::move(report_);
+        }
         judge_facets();
         if (context_.cancelled()) return Context::cancelled_error();
         judge_shells();
@@ -137,7 +145,7 @@ Status Validation::prepare() {
         bounds.add(position);
     }
     points_.resize(kept_.size());
-    if (bounds.empty()) return Done{};
+    if (bounds.empty() || options_.topology_only) return Done{};
     const Result<exact::Lattice> lattice = exact::Lattice::fit(bounds);
     if (!lattice) return lattice.error();
     for (VertexIndex vertex = 0; vertex < kept_.size(); ++vertex) {
@@ -249,15 +257,27 @@ void Validation::judge_facets() {
 void Validation::judge_shells() {
     const Shells shells = find_shells(points_, triangles_, edges_);
     report_.shells = static_cast<std::uint32_t>(shells.shells.size());
-    Finding inside_out;
+    Finding inside_out, flat;
     for (const Shell& shell : shells.shells) {
         inside_out.count += shell.inside_out();
         report_.cavities += shell.cavity();
+        report_.nested_bodies += shell.nested_body();
     }
-    for (FaceIndex face = 0; inside_out.count != 0 && face < triangles_.size(); ++face)
-        if (shells.of_face[face] != no_index && shells.shells[shells.of_face[face]].inside_out())
-            inside_out.faces.push_back(face);
+    // Shells of nothing but facets without area are no surface and do no harm.
+    std::vector<bool> is_sheet(shells.shells.size());
+    for (FaceIndex face = 0; face < triangles_.size(); ++face) {
+        const std::uint32_t shell = shells.of_face[face];
+        if (shell == no_index) continue;
+        if (shells.shells[shell].inside_out()) inside_out.faces.push_back(face);
+        if (!shells.shells[shell].flat() || is_sheet[shell]) continue;
+        const auto [i, j, k] = triangles_[face];
+        is_sheet[shell] = !exact::collinear(points_[i], points_[j], points_[k]);
+    }
+    flat.count = static_cast<std::uint64_t>(std::count(is_sheet.begin(), is_sheet.end(), true));
+    for (FaceIndex face = 0; flat.count != 0 && face < triangles_.size(); ++face)
+        if (shells.of_face[face] != no_index && is_sheet[shells.of_face[face]]) flat.faces.push_back(face);
     add(ProblemKind::inside_out_shells, std::move(inside_out));
+    add(ProblemKind::flat_shells, std::move(flat));
 }
 
 Status Validation::judge_pairs() {
@@ -296,7 +316,8 @@ void Validation::add(ProblemKind kind, Finding finding) {
 void Validation::conclude() {
     std::sort(report_.problems.begin(), report_.problems.end(),
               [](const Problem& a, const Problem& b) { return a.kind < b.kind; });
-    report_.solid = report_.problems.empty() || !is_error(report_.problems.front().kind);
+    report_.solid =
+        !options_.topology_only && (report_.problems.empty() || !is_error(report_.problems.front().kind));
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ struct ValidateOptions {
     std::size_t most_faces = 1000;
     /// Looking for self-intersections is most of the work; without it `solid` cannot tell about them.
     bool self_intersections = true;
+    /// Only what needs no lattice: edges, vertices, components. `solid` and all counts that ask for geometry then say
+    /// nothing. For meshes that no lattice holds.
+    bool topology_only = false;
 };
 
 /// Errors: bad_input when a facet's vertex is not finite, limit when the mesh does not fit a lattice, cancelled.

@@ -1,25 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include <octavo/base/result.hpp>
 #include <octavo/base/vec3.hpp>
 
 // Where the viewer stands. A camera maps the world to the picture: x to the right and y down in pixels, depth away
-// from the viewer in world units. The whole of the given bounds is in view, whatever the direction.
+// from the viewer in world units. What is looked at fills the picture up to the margin, whatever the direction: the
+// camera fits the points themselves, not their box, whose empty corners would push them aside.
 
 namespace octavo::render {
 
 struct View {
     double azimuth_degrees = 35;    ///< 0 looks along +y, from in front; positive walks to the right
     double elevation_degrees = 25;  ///< 90 looks straight down; must lie in [-90, 90]
-    double perspective = 0;         ///< field of view in degrees, below 120; 0 is orthographic
+    double perspective = 0;         ///< field of view in degrees, at most `widest_view`; 0 is orthographic
     double margin = 0.04;           ///< share of the picture left free on each side
 };
 
+/// Wider views show little but the corners of the picture.
+constexpr double widest_view = 120;
+
 class Camera {
   public:
-    /// A camera that has all of `bounds` in a picture of this size, in pixels. Errors: bad_input for empty bounds or a
-    /// view outside its limits.
+    /// A camera that has all of `points` in a picture of this size, in pixels. Errors: bad_input when there are none, one
+    /// is not finite, or the view is outside its limits.
+    static Result<Camera> look_at(std::span<const Vec3> points, const View& view, int width, int height);
+
+    /// The same for the corners of a box.
     static Result<Camera> look_at(const Box3& bounds, const View& view, int width, int height);
 
     /// x and y in pixels, z the depth: larger is farther.
@@ -33,9 +42,9 @@ class Camera {
   private:
     Vec3 right_, up_, forward_;
     Vec3 target_;
-    double scale_ = 1;     // pixels per world unit, at the target's depth
-    double distance_ = 0;  // of the eye from the target; 0 is orthographic
-    double centre_x_ = 0, centre_y_ = 0;
+    double scale_ = 1;                    // pixels per world unit, at the target's depth
+    double distance_ = 0;                 // of the eye from the target; 0 is orthographic
+    double centre_x_ = 0, centre_y_ = 0;  // of the target, in pixels
 };
 
 }  // namespace octavo::render

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 #include <cairo.h>
 
+#include <octavo/io/output.hpp>
 #include <octavo/render/png.hpp>
 
 namespace octavo::render {
@@ -34,20 +36,23 @@ Surface surface_of(const Image& image) {
     return surface;
 }
 
+cairo_status_t append(void* output, const unsigned char* bytes, unsigned int size) {
+    static_cast<io::Output*>(output)->append(
+        std::string_view(reinterpret_cast<const char*>(bytes), std::size_t{size}));
+    return CAIRO_STATUS_SUCCESS;
+}
+
 }  // namespace
 
-Status write_png(const std::filesystem::path& path, const Image& image) {
+Status write_png(const std::string& path, const Image& image) {
+    Result<io::Output> output = io::Output::to_file(path);
+    if (!output) return std::move(output).error();
     const Surface surface = surface_of(image);
-    std::filesystem::path temporary = path;
-    temporary += ".part";
-    const cairo_status_t status = cairo_surface_write_to_png(surface.get(), temporary.c_str());
-    std::error_code failed, ignored;
-    if (status == CAIRO_STATUS_SUCCESS) std::filesystem::rename(temporary, path, failed);
-    if (status == CAIRO_STATUS_SUCCESS && !failed) return Done{};
-    std::filesystem::remove(temporary, ignored);
-    Error error{ErrorCode::io, "cannot write the picture: ", {}};
-    error.sentence += status != CAIRO_STATUS_SUCCESS ? cairo_status_to_string(status) : failed.message();
-    error.place.file = path.string();
+    const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &*output);
+    if (status == CAIRO_STATUS_SUCCESS) return output->commit();
+    Error error{
+        ErrorCode::io, std::string("cannot write the picture: ") + cairo_status_to_string(status), {}};
+    error.place.file = path;
     return error;
 }
 

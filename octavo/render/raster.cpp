@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <octavo/render/raster.hpp>
 
@@ -91,6 +94,24 @@ void trace(Buffer& buffer, const Corner& from, const Corner& to, Color color, do
     }
 }
 
+/// Draws the outline of what is capped: the samples within `width` / 2 of a neighbour that is not.
+void outline_cap(Buffer& buffer, double width) {
+    std::vector<std::pair<int, int>> rim;
+    for (int row = 0; row < buffer.height; ++row)
+        for (int column = 0; column < buffer.width; ++column) {
+            const bool capped = buffer.at(column, row).capped;
+            if ((column + 1 < buffer.width && buffer.at(column + 1, row).capped != capped) ||
+                (row + 1 < buffer.height && buffer.at(column, row + 1).capped != capped))
+                rim.emplace_back(column, row);
+        }
+    const int side = std::max(1, static_cast<int>(std::lround(width)));
+    for (const auto& [column, row] : rim)
+        for (int y = std::max(0, row - side / 2); y < std::min(buffer.height, row - side / 2 + side); ++y)
+            for (int x = std::max(0, column - side / 2); x < std::min(buffer.width, column - side / 2 + side);
+                 ++x)
+                buffer.at(x, y).color = palette::ink;
+}
+
 Image average(Buffer& buffer, int samples) {
     Image image{buffer.width / samples, buffer.height / samples, {}};
     image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
@@ -111,8 +132,12 @@ Image average(Buffer& buffer, int samples) {
 
 Result<Image> draw(const Scene& scene, const Camera& camera, const DrawOptions& options,
                    const Context& context) {
-    if (options.width < 1 || options.height < 1 || options.width > 16384 || options.height > 16384)
-        return Error{ErrorCode::bad_input, "a picture must be 1 to 16384 pixels wide and high", {}};
+    if (options.width < 1 || options.height < 1 || options.width > largest_picture ||
+        options.height > largest_picture)
+        return Error{ErrorCode::bad_input,
+                     "a picture must be 1 to 16384 pixels wide and high, not " +
+                         std::to_string(options.width) + " by " + std::to_string(options.height),
+                     {}};
     if (options.samples < 1 || options.samples > 8)
         return Error{ErrorCode::bad_input, "samples must lie between 1 and 8", {}};
 
@@ -151,6 +176,8 @@ Result<Image> draw(const Scene& scene, const Camera& camera, const DrawOptions& 
     for (const Line& line : scene.lines)
         trace(buffer, project(line.from), project(line.to), line.color, options.line_width * options.samples,
               bias, options.cut_at);
+    if (options.cut_at < Box3::infinity && options.outline_cap)
+        outline_cap(buffer, options.line_width * options.samples);
     return average(buffer, options.samples);
 }
 

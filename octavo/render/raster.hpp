@@ -11,18 +11,21 @@
 // Each facet is filled at `samples` × `samples` sub-pixels with a depth test; lines are tested against the same depths
 // with a small bias towards the viewer, so that an edge is not hidden by its own facets; the samples are averaged at
 // the end. Light comes from over the viewer's left shoulder and, weakly, from the right. Facets seen from behind
-// take their back colour, flat when the scene is cut, so that a closed surface looks capped there.
+// take their back colour, flat when the scene is cut, so that a closed surface looks capped there; the cap is outlined.
 // Cost: facets + covered samples; memory: 20 bytes a sample.
 
 namespace octavo::render {
 
+constexpr int largest_picture = 16384;
+
 struct DrawOptions {
-    int width = 1200, height = 900;  ///< in pixels, 1 to 16384
+    int width = 1200, height = 900;  ///< in pixels, 1 to `largest_picture`
     int samples = 3;                 ///< per pixel and direction, 1 to 8
     double line_width = 1.2;         ///< in pixels
     /// World points with position[cut_axis] beyond this are not drawn.
     double cut_at = Box3::infinity;
     int cut_axis = 0;
+    bool outline_cap = true;  ///< a line round what was cut through
     Color background = palette::paper;
 };
 

@@ -30,6 +30,9 @@ struct Scene {
     std::vector<Line> lines;
 
     Box3 bounds() const;
+
+    /// The corners of what is left of the facets and lines where position[cut_axis] <= cut_at: what a camera must see.
+    std::vector<Vec3> corners(int cut_axis = 0, double cut_at = Box3::infinity) const;
 };
 
 /// Which edges of a mesh become lines.

@@ -43,6 +43,20 @@ Box3 Scene::bounds() const {
     return box;
 }
 
+std::vector<Vec3> Scene::corners(int cut_axis, double cut_at) const {
+    std::vector<Vec3> corners;
+    // The start of a side, and where the side meets the cut.
+    const auto add_side = [&](Vec3 from, Vec3 to) {
+        const double a = from[cut_axis], b = to[cut_axis];
+        if (a <= cut_at) corners.push_back(from);
+        if ((a <= cut_at) != (b <= cut_at)) corners.push_back(from + (cut_at - a) / (b - a) * (to - from));
+    };
+    for (const Facet& facet : facets)
+        for (std::size_t k = 0; k < 3; ++k) add_side(facet.corners[k], facet.corners[(k + 1) % 3]);
+    for (const Line& line : lines) add_side(line.from, line.to), add_side(line.to, line.from);
+    return corners;
+}
+
 Scene scene_of(const mesh::Mesh& mesh, const MeshSceneOptions& options) {
     Scene scene;
     scene.facets.reserve(mesh.triangles.size());

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <map>
 #include <set>
+#include <vector>
 
 #include "cli/program.hpp"
 
@@ -20,10 +22,40 @@ TEST_F(Conventions, HelpAndVersionSucceed) {
 }
 
 TEST_F(Conventions, AWrongCommandLineIsExitCode2WithAHintAndEmptyStdout) {
-    for (const char* arguments :
-         {"", "frobnicate", "info", "info a.off --no-such-option", "octree a.off --depth 22",
-          "octree a.off --depth x", "octree a.off --precision nan", "octree a.off --precision 0",
-          "shape dodo -o a.stl", "render a.off -o a.png --size 9", "render a.off -o a.png --cut w"}) {
+    for (const char* arguments : {"",
+                                  "frobnicate",
+                                  "info",
+                                  "info a.off --no-such-option",
+                                  "octree a.off --depth 22",
+                                  "octree a.off --depth x",
+                                  "octree a.off --precision nan",
+                                  "octree a.off --precision 0",
+                                  "shape dodo -o a.stl",
+                                  "render a.off -o a.png --size 9",
+                                  "render a.off -o a.png --cut w",
+                                  "render a.off -o a.png --size 0x0",
+                                  "render a.off -o a.png --perspective 180",
+                                  "render a.off -o a.png --elevation 91",
+                                  "render a.off -o a.bmp",
+                                  "convert a.off a.xyz",
+                                  "convert a.off a",
+                                  "convert a.off -",
+                                  "convert a.off a.oct",
+                                  "octree a.off -o a.stl",
+                                  "contains a.off p.csv -o a.stl",
+                                  "contains a.off p.csv --to xls",
+                                  "contains - -",
+                                  "union - - -o a.stl",
+                                  "repair a.off -o a.doc",
+                                  "union a.off b.off -o a.png",
+                                  "shape sphere --detail 99999 -o a.stl",
+                                  "shape cube --detail 2 -o a.stl",
+                                  "shape torus --detail -1 -o a.stl",
+                                  "info a.off --format doc",
+                                  "info a.off --threads 5000",
+                                  "convert a.off a.3mf --unit parsec",
+                                  "union a.off b.off",
+                                  "check a.off b.off"}) {
         const Ran ran = octavo(arguments);
         EXPECT_EQ(ran.exit_code, 2) << arguments;
         EXPECT_EQ(ran.out, "") << arguments;
@@ -33,6 +65,61 @@ TEST_F(Conventions, AWrongCommandLineIsExitCode2WithAHintAndEmptyStdout) {
 
 TEST_F(Conventions, AnUnknownVerbIsNamed) {
     EXPECT_NE(octavo("frobnicate a.off").err.find("there is no verb frobnicate"), std::string::npos);
+}
+
+TEST_F(Conventions, WhatIsWrongWithAnOptionIsSaidWithItsNameAndItsLimits) {
+    const std::map<std::string, std::vector<std::string>> words{
+        {"octree a.off --depth 22", {"--depth", "0 to 21", "not 22"}},
+        {"render a.off -o a.png --size 0x0", {"--size", "1 to 16384", "not 0x0"}},
+        {"render a.off -o a.png --perspective 180", {"--perspective", "0 to 120", "not 180"}},
+        {"shape torus --detail 99999 -o a.stl", {"--detail", "3 to 5000", "99999"}},
+        {"shape cube --detail 2 -o a.stl", {"--detail", "cube"}},
+        {"octree a.off --open maybe", {"--open", "reject or winding", "not maybe"}},
+        {"convert a.off a.xyz", {"a.xyz", "stl, obj, ply, off or 3mf"}},
+        {"contains - -", {"stdin"}},
+        {"info a.off --jsno", {"--jsno", "did you mean --json?"}},
+        {"shape spheer -o a.stl", {"spheer", "did you mean sphere?"}},
+        {"inof a.off", {"inof", "did you mean info?"}}};
+    for (const auto& [arguments, expected] : words)
+        for (const std::string& word : expected)
+            EXPECT_NE(octavo(arguments).err.find(word), std::string::npos) << arguments << ": " << word;
+}
+
+TEST_F(Conventions, AWrongCommandLineIsAlsoTheJsonObject) {
+    for (const char* arguments : {"info --json", "frobnicate --json", "octree a.off --depth 22 --json",
+                                  "shape cube --detail 7 -o a.stl --json", "info a.off --bogus --json"}) {
+        const Ran ran = octavo(arguments);
+        EXPECT_EQ(ran.exit_code, 2) << arguments;
+        const nlohmann::json json = ran.json();
+        ASSERT_TRUE(json.is_object()) << arguments << ran.out;
+        EXPECT_EQ(json["error"]["code"], "usage") << arguments;
+        EXPECT_FALSE(json["error"]["message"].get<std::string>().empty());
+    }
+    EXPECT_EQ(octavo("info --json").json()["command"], "info");
+}
+
+TEST_F(Conventions, DataAndTheJsonObjectDoNotShareStdout) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    write("points.csv", "0,0,0\n");
+    for (const char* arguments :
+         {"convert cube.off - --to obj --json", "octree cube.off -o - --json",
+          "contains cube.off points.csv -o - --json", "shape cube -o - --to stl --json"}) {
+        const Ran ran = octavo(arguments);
+        EXPECT_EQ(ran.exit_code, 2) << arguments;
+        ASSERT_TRUE(ran.json().is_object()) << arguments;
+        EXPECT_NE(ran.json()["error"]["message"].get<std::string>().find("name a file"), std::string::npos);
+    }
+}
+
+TEST_F(Conventions, HelpTellsDefaultsAndChoicesAndFormats) {
+    const std::string octree = octavo("octree --help").out;
+    for (const char* words : {"default 8", "reject|winding", "top-down|classic", "Usage: octavo octree FILE"})
+        EXPECT_NE(octree.find(words), std::string::npos) << words << "\n" << octree;
+    EXPECT_EQ(octree.find("INT in"), std::string::npos);
+    EXPECT_NE(octavo("render --help").out.find("default 1200x900"), std::string::npos);
+    EXPECT_NE(octavo("convert --help").out.find("stl, obj, ply, off or 3mf"), std::string::npos);
+    for (const char* format : {"stl", "obj", "ply", "off", "3mf", "csg", "oct", "vtu", "htg", "npy", "png"})
+        EXPECT_NE(octavo("--help").out.find(format), std::string::npos) << format;
 }
 
 TEST_F(Conventions, ABadFileIsExitCode3WithTheFileAndTheLine) {
@@ -131,6 +218,30 @@ TEST_F(Conventions, ManPageAndCompletionKnowEveryVerb) {
     EXPECT_GE(verbs, 8);
     EXPECT_EQ(shell("$octavo man | man --warnings -l - 2>&1 >/dev/null").out, "");
     EXPECT_EQ(shell("$octavo completion bash | bash -n").exit_code, 0);
+}
+
+TEST_F(Conventions, BashCompletesVerbsOptionsAndChoices) {
+    const auto completed = [&](const std::string& words, int at) {
+        return shell("source <($octavo completion bash); COMP_WORDS=(" + words +
+                     "); COMP_CWORD=" + std::to_string(at) + "; _octavo; echo ${COMPREPLY[*]}")
+            .out;
+    };
+    EXPECT_EQ(completed("octavo oct", 1), "octree\n");
+    EXPECT_EQ(completed("octavo octree --dep", 2), "--depth\n");
+    EXPECT_EQ(completed("octavo octree --open w", 3), "winding\n");
+}
+
+TEST_F(Conventions, ZshAndFishCompletionAreForTheseShells) {
+    for (const char* name : {"zsh", "fish"}) {
+        const std::string script = octavo(std::string("completion ") + name).out;
+        for (const char* word : {"octree", "depth", "reject winding", "Print errors only"})
+            EXPECT_NE(script.find(word), std::string::npos) << name << " " << word;
+        // Where the shell is installed, it must accept the script.
+        EXPECT_EQ(shell(std::string("$octavo completion ") + name + " > script; ! command -v " + name +
+                        " || " + name + " -n script")
+                      .exit_code,
+                  0);
+    }
 }
 
 }  // namespace

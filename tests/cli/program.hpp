@@ -53,10 +53,11 @@ class ProgramTest : public testing::Test {
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
     }
-    /// The same with `before` in front of the program, for example "cat x | ".
+    /// A command for bash in which $octavo is the program.
     Ran shell(const std::string& command) const {
         const std::string whole =
-            "cd '" + folder_.string() + "' && octavo=" + program + "; (" + command + ") >.out 2>.err";
+            "cd '" + folder_.string() + "' && octavo=" + program + " bash .command >.out 2>.err";
+        write(".command", command);
         const int status = std::system(whole.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
     }

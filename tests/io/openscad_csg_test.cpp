@@ -45,6 +45,19 @@ Box3 bounds(const std::string& text) { return *csg::tight_bounds(read_or_die(tex
 
 double prism(int n, double r, double h) { return 0.5 * n * r * r * std::sin(2 * std::acos(-1.0) / n) * h; }
 
+TEST(OpenscadCsg, PrimitivesWithoutExtentAreEmptyWithAWarningThatNamesTheLine) {
+    for (const char* text : {"cube(size = [-1, 2, 3]);", "cube(0);", "sphere(r = -2);", "sphere(r = 0);",
+                             "cylinder(h = -1, r1 = 1, r2 = 1);", "cylinder(h = 1, r1 = 0, r2 = 0);",
+                             "linear_extrude(height = 1) { square(size = [0, 1]); }",
+                             "linear_extrude(height = 1) { circle(r = -1); }"}) {
+        const CsgFile file = read_or_die(std::string("union() {\n  cube(1);\n  ") + text + "\n}\n");
+        ASSERT_GE(file.warnings.size(), 1u) << text;
+        EXPECT_NE(file.warnings[0].find("line 3"), std::string::npos) << file.warnings[0];
+        EXPECT_NE(file.warnings[0].find("must be positive"), std::string::npos) << file.warnings[0];
+    }
+    EXPECT_TRUE(read_or_die("cube(1);").warnings.empty());
+}
+
 TEST(OpenscadCsg, PrimitivesHaveTheVolumesOfOpenscadsPolyhedra) {
     EXPECT_NEAR(volume("cube(size = [1, 2, 3], center = true);"), 6, 1e-12);
     EXPECT_NEAR(volume("cube(2);"), 8, 1e-12);
@@ -230,6 +243,8 @@ TEST(OpenscadCsg, SaysWhatIsWrongAndWhere) {
          ErrorCode::not_a_solid, 1, 1, "do not close"},
         {"rotate_extrude() { square(1, center = true); }", ErrorCode::bad_input, 1, 1, "both sides"},
         {"123", ErrorCode::bad_input, 1, 1, "name of a node"},
+        // The first of several.
+        {"union() {\n cube(size = nan);\n sphere(r = inf);\n}", ErrorCode::bad_input, 2, 7, "finite"},
         {"cube", ErrorCode::bad_input, 1, 5, "expected '('"},
         {"cube(", ErrorCode::bad_input, 1, 6, "ends"},
         {"\xFF\xFE\x00", ErrorCode::bad_input, 1, 1, "name of a node"},
@@ -249,8 +264,8 @@ TEST(OpenscadCsg, SkippingWhatIsUnsupportedLeavesWarnings) {
         "union() {\n\ttext(text = \"a);\", size = 3);\n\tcube(2);\n\timport(file = \"no.stl\");\n}",
         facets(true));
     ASSERT_EQ(file.warnings.size(), 2U);
-    EXPECT_NE(file.warnings[1].find("line 2, column 2"), std::string::npos) << file.warnings[1];
-    EXPECT_NE(file.warnings[0].find("line 4, column 2"), std::string::npos) << file.warnings[0];
+    EXPECT_NE(file.warnings[0].find("line 2, column 2"), std::string::npos) << file.warnings[0];
+    EXPECT_NE(file.warnings[1].find("line 4, column 2"), std::string::npos) << file.warnings[1];
     EXPECT_NEAR(csg::tight_bounds(file.expression)->high.x, 2, 1e-12);
 }
 

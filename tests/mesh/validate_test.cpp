@@ -238,6 +238,44 @@ TEST(Validate, OfNothingIsNoSolid) {
     EXPECT_EQ(kinds_of(report_of(flat)).front(), ProblemKind::empty);
 }
 
+TEST(Validate, FindsDoubleSheetsThatOnlyTheLatticeMakes) {
+    // A plate of a thickness far below the lattice unit: its two sides fall together.
+    Mesh plate = box({0, 0, 0}, {1, 1, 1e-12});
+    const Report report = report_of(plate);
+    EXPECT_EQ(report.count(ProblemKind::flat_shells), 1u);
+    EXPECT_FALSE(report.solid);
+    // Beside a real body it is still named, with its facets alone.
+    const Report beside = report_of(both(cube(), moved(plate, {5, 0, 0})));
+    ASSERT_EQ(beside.count(ProblemKind::flat_shells), 1u);
+    for (const Problem& problem : beside.problems) {
+        if (problem.kind == ProblemKind::flat_shells) {
+            EXPECT_GE(problem.faces.front(), 12u);
+        }
+    }
+    // What has not even area is no sheet.
+    const Report speck = report_of(both(cube(), moved(box({0, 0, 0}, {1e-12, 1e-12, 1e-12}), {5, 0, 0})));
+    EXPECT_EQ(speck.count(ProblemKind::flat_shells), 0u);
+}
+
+TEST(Validate, CountsBodiesInBodies) {
+    const Mesh nested = both(box({-2, -2, -2}, {2, 2, 2}), box({-1, -1, -1}, {1, 1, 1}));
+    EXPECT_EQ(report_of(nested).nested_bodies, 1u);
+    EXPECT_TRUE(report_of(nested).solid);
+    EXPECT_EQ(report_of(both(cube(), moved(cube(), {5, 0, 0}))).nested_bodies, 0u);
+}
+
+TEST(Validate, TellsTheTopologyOfWhatNoLatticeHolds) {
+    Mesh mesh = cube();
+    for (Vec3& vertex : mesh.vertices) vertex = 1e300 * vertex;
+    const auto refused = validate(mesh);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::limit);
+    const auto report = validate(mesh, {.topology_only = true});
+    ASSERT_TRUE(report.has_value());
+    EXPECT_TRUE(report->closed && report->oriented && report->manifold);
+    EXPECT_FALSE(report->solid) << "not known";
+}
+
 TEST(Validate, RefusesWhatIsNotFinite) {
     Mesh mesh = cube();
     mesh.vertices[3].y = INFINITY;
@@ -251,7 +289,7 @@ TEST(Validate, DescribesInSentences) {
     Mesh mesh = cube();
     mesh.triangles.pop_back();
     EXPECT_EQ(report_of(mesh).describe(),
-              "The mesh does not bound a solid; it is not closed. It has 11 facets in 1 shell.\n"
+              "The mesh does not bound a solid and is not closed. It has 11 facets in 1 shell.\n"
               "error: 3 edges have only one facet.\n");
     EXPECT_EQ(report_of(cube()).describe(),
               "The mesh bounds a solid and is closed. It has 12 facets in 1 shell.\n");

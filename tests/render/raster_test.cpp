@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -86,6 +88,60 @@ TEST(Camera, HasTheWholeOfTheBoundsInThePictureFromEverySide) {
                     EXPECT_LE(p.y, 300 * 0.95 + 1e-6);
                 }
             }
+}
+
+TEST(Camera, FillsThePictureWithThePointsAndNotWithTheirBox) {
+    // A slanted line of points leaves two corners of its box empty.
+    const std::vector<Vec3> points{{0, 0, 0}, {3, 4, 5}, {1, 1, 1}};
+    for (const double perspective : {0.0, 60.0}) {
+        const View view{
+            .azimuth_degrees = 20, .elevation_degrees = 30, .perspective = perspective, .margin = 0.1};
+        const Result<Camera> camera = Camera::look_at(points, view, 500, 300);
+        ASSERT_TRUE(camera);
+        Box3 picture;
+        for (const Vec3& point : points) picture.add(camera->project(point));
+        EXPECT_NEAR(picture.low.x + picture.high.x, 500, 1e-6);
+        EXPECT_NEAR(picture.low.y + picture.high.y, 300, 1e-6);
+        const bool wide = std::fabs(picture.high.x - picture.low.x - 400) < 1e-6;
+        const bool high = std::fabs(picture.high.y - picture.low.y - 240) < 1e-6;
+        EXPECT_TRUE(wide || high);
+    }
+}
+
+TEST(Scene, ItsCornersEndAtTheCut) {
+    Scene scene;
+    scene.facets.push_back({{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}}});
+    scene.lines.push_back({Vec3{2, 0, 0}, Vec3{6, 0, 0}});
+    Box3 kept;
+    for (const Vec3& corner : scene.corners(0, 1)) kept.add(corner);
+    EXPECT_EQ(kept.high.x, 1);
+    EXPECT_EQ(kept.high.y, 4);
+    EXPECT_EQ(scene.corners().size(), 5u);
+}
+
+TEST(Draw, OutlinesTheCut) {
+    // A box cut open: the cut shows the back of its far side, orange, with a dark rim inside the picture.
+    Scene box;
+    for (const double y : {-1.0, 1.0}) add_square(box, y, 1, red);
+    std::swap(box.facets[2].corners[1], box.facets[2].corners[2]);
+    std::swap(box.facets[3].corners[1], box.facets[3].corners[2]);
+    View view;
+    view.azimuth_degrees = 0;
+    view.elevation_degrees = 0;
+    for (const bool outline : {true, false}) {
+        DrawOptions options{.width = 100, .height = 100};
+        options.cut_axis = 1;
+        options.cut_at = 0;
+        options.outline_cap = outline;
+        view.azimuth_degrees = 180;  // from behind, so that the near side is cut away
+        const Result<Camera> camera = Camera::look_at(box.corners(1, 0), view, 100, 100);
+        const Result<Image> image = draw(box, *camera, options);
+        ASSERT_TRUE(image);
+        EXPECT_GT(image->at(50, 50).red, 0.5F);
+        bool dark = false;
+        for (int column = 0; column < 50; ++column) dark = dark || image->at(column, 50).red < 0.4F;
+        EXPECT_EQ(dark, outline);
+    }
 }
 
 TEST(Camera, RefusesEmptyBoundsAndImpossibleViews) {

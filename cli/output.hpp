@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "session.hpp"
+
+// Where a verb's result goes, settled before any work is done: nobody waits an hour to learn that `.xyz` is no format.
+
+namespace octavo::cli {
+
+/// What a verb can write.
+struct OutputFormats {
+    const char* things;              ///< "meshes", for messages
+    std::vector<std::string> names;  ///< also the extensions
+    const char* for_stdout;          ///< the format that `-` has when none is named; empty: one must be
+};
+
+const OutputFormats& mesh_outputs();
+const OutputFormats& octree_outputs();
+/// Columns of answers for points.
+const OutputFormats& answer_outputs();
+const OutputFormats& picture_outputs();
+
+/// "stl, obj or ply", for help and messages.
+std::string one_of(const std::vector<std::string>& names);
+
+/// The format in which `output` is to be written: `format` when it is named, else by the extension; "" when `output`
+/// is empty. Errors: usage when it is none of `formats`, when two inputs are stdin, or when `--json` needs stdout for
+/// itself; io when the output is one of the inputs.
+Result<std::string> settle_output(Session& session, const std::vector<std::string>& inputs,
+                                  const std::string& output, const std::string& format,
+                                  const OutputFormats& formats);
+
+/// Do both names lead to the same existing file? Then writing would destroy the input.
+bool same_file(const std::string& a, const std::string& b);
+
+/// The error for `same_file`.
+Error would_overwrite(const std::string& path);
+
+/// The part of it that concerns inputs, for verbs without an output.
+Status check_inputs(Session& session, const std::vector<std::string>& inputs);
+
+}  // namespace octavo::cli
