@@ -189,10 +189,14 @@ Result<io::WriteReport> write(Session& session, const Context& context, HexmeshF
 
 Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     const Context context = session.context();
+    if (Status status = check_inputs(session, options.inputs); !status) return std::move(status).error();
+    if (options.output == "-" && session.options.json)
+        return session.usage_error(
+            "--json prints its object on stdout, so the data cannot go there too; name a file");
     const Result<HexmeshFormat> format = hexmesh_format(options.output, options.to);
-    if (!format) return format.error();
+    if (!format) return session.usage_error(format.error().sentence);
     const Result<hexmesh::Options> meshing = meshing_options(options);
-    if (!meshing) return meshing.error();
+    if (!meshing) return session.usage_error(meshing.error().sentence);
     Result<std::vector<mesh::Mesh>> solids = read_solids(session, context, options);
     if (!solids) return std::move(solids).error();
     Result<hexmesh::Built> built = session.timed("mesh", [&] {

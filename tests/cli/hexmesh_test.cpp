@@ -81,14 +81,16 @@ TEST_F(Hexmesh, FitsAndReportsQuality) {
 
 TEST_F(Hexmesh, RefusesBadUsageAndBadDataWithThePlace) {
     ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
-    for (const char* arguments : {"hexmesh", "hexmesh cube.off --level 22", "hexmesh cube.off -p 0",
-                                  "hexmesh cube.off --size cube.off", "hexmesh cube.off --box 1,2,3:4",
-                                  "hexmesh cube.off --level 3 -p 1", "hexmesh cube.off --curvature 1:999",
-                                  "hexmesh cube.off --conforming --balance face"})
+    for (const char* arguments :
+         {"hexmesh", "hexmesh cube.off --level 22", "hexmesh cube.off -p 0",
+          "hexmesh cube.off --size cube.off", "hexmesh cube.off --box 1,2,3:4",
+          "hexmesh cube.off --level 3 -p 1", "hexmesh cube.off --curvature 1:999",
+          "hexmesh cube.off --conforming --balance face", "hexmesh cube.off -o cube.xyz",
+          "hexmesh cube.off --size other.off:1 -o c.inp", "hexmesh cube.off -o - --to abaqus --json",
+          "hexmesh - - -o c.inp"})
         EXPECT_EQ(octavo(arguments).exit_code, 2) << arguments;
     for (const char* arguments :
-         {"hexmesh cube.off -o cube.xyz", "hexmesh cube.off --size other.off:1 -o c.inp",
-          "hexmesh none.off -o c.inp", "hexmesh cube.off -o c.msh --level 3 --box 0,0,0,0.1,0.1,0.1:0.05",
+         {"hexmesh none.off -o c.inp", "hexmesh cube.off -o c.msh --level 3 --box 0,0,0,0.1,0.1,0.1:0.05",
           "hexmesh cube.off --balance face -o c.inp"}) {
         EXPECT_EQ(octavo(arguments).exit_code, 3) << arguments;
         EXPECT_FALSE(std::filesystem::exists(path("c.inp"))) << arguments;
