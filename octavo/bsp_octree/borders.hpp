@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <octavo/boolean/point_table.hpp>
+#include <octavo/bsp/fragment.hpp>
+#include <octavo/bsp/plane_table.hpp>
+
+// The sum of the borders of many fragments: the borders of what the fragments of each plane cover together.
+//
+// Each fragment's edges are directed segments. First, equal segments of one plane that run opposite ways cancel; that
+// removes nearly all cuts. The rest is gathered by lines of space. On a line, segments of one facing are added up
+// between neighbouring end points: what runs both ways vanishes, however either was cut. Then the end points go at
+// which nothing changes, for any facing. What comes out is conforming: segments of all planes on a line have the same
+// ends.
+
+namespace octavo::bsp_octree {
+
+struct Segment {
+    bsp::Facing facing;
+    boolean::PointId from, to;  ///< the face is on the left, seen from where the plane's normal points
+    friend auto operator<=>(const Segment&, const Segment&) = default;
+};
+
+/// A segment and the other bound whose line with the segment's plane it lies on.
+struct BoundedSegment {
+    Segment segment;
+    bsp::Bound bound;
+};
+
+/// The borders, sorted by facing. `points` names the ends. None when borders do not close with the keys of this
+/// attempt (line_key.hpp).
+bool sum_borders(std::vector<BoundedSegment> edges, const bsp::FragmentPool& planes,
+                 const boolean::PointTable& points, int attempt, std::vector<Segment>& borders);
+
+}  // namespace octavo::bsp_octree

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octavo/base/context.hpp>
+#include <octavo/bsp/boundary.hpp>
+#include <octavo/bsp/build.hpp>
+#include <octavo/bsp/fragment.hpp>
+#include <octavo/bsp_octree/options.hpp>
+#include <octavo/bsp_octree/store.hpp>
+#include <octavo/octree/cell.hpp>
+
+// From the faces in a cell to its node: BSP leaf where they are simple, else eight octants.
+//
+// Faces are cut by the walls between octants and go on as fragments, so a leaf receives exactly what lies in it. What
+// is simple is the options' matter (options.hpp). What colour an octant without faces has, the faces cannot say; the
+// caller does.
+
+namespace octavo::bsp_octree {
+
+using Fragments = std::vector<bsp::Fragment>;
+
+/// The memory of one operation: pools, lists by level, builders.
+class Workspace {
+  public:
+    Workspace(Store& store, bsp::FragmentPool& pool, const Options& options, const Context& context)
+        : store_(store), pool_(pool), options_(options), context_(context), builder_(options.tree) {}
+
+    /// Once true, nodes are made of nothing, and fast; who started the work throws them away.
+    bool cancelled() const { return context_.cancelled(); }
+
+    Store& store() { return store_; }
+    bsp::FragmentPool& pool() { return pool_; }
+    const Options& options() const { return options_; }
+
+    /// Cuts fragments of a cell to its octants.
+    void distribute(const octree::Cell& cell, std::span<const bsp::Fragment> fragments,
+                    std::array<Fragments, 8>& octants);
+
+    /// May these faces be the leaf of this cell?
+    bool is_simple(const octree::Cell& cell, std::span<const bsp::Fragment> fragments);
+    /// Whether octants that came of a cell are no simpler than the cell: long thin faces go through many of them.
+    bool is_futile(std::span<const bsp::Fragment> fragments, const std::array<Fragments, 8>& octants) const;
+
+    NodeRef make_leaf(std::span<const bsp::Fragment> fragments);
+    /// The gray node of these octants, or what it is condensed to.
+    NodeRef make_gray(const octree::Cell& cell, const Octants& octants);
+
+    /// Appends the faces of a BSP leaf.
+    void extract(const octree::Cell& cell, NodeRef leaf, Fragments& faces) {
+        extractor_.extract(pool_, cell, store_.tree(leaf), faces);
+    }
+
+  private:
+    bool shares_a_point(const octree::Cell& cell) const;
+    std::size_t count_planes(std::span<const bsp::Fragment> fragments, std::size_t most);
+
+    Store& store_;
+    bsp::FragmentPool& pool_;
+    Options options_;
+    const Context& context_;
+    bsp::TreeBuilder builder_;
+    bsp::BoundaryExtractor extractor_;
+    std::vector<bsp::PlaneId> planes_;
+};
+
+/// Subdivides until all leaves are simple. `Colors` knows the labels of cells without faces:
+///   State         what it knows about a cell
+///   octants(cell, fragments, state) → std::array<State, 8>
+///   label(cell, state)              of a cell without faces
+template <class Colors>
+class Subdivider {
+  public:
+    using State = typename Colors::State;
+
+    Subdivider(Workspace& workspace, Colors colors) : workspace_(workspace), colors_(std::move(colors)) {}
+
+    NodeRef operator()(const octree::Cell& cell, std::span<const bsp::Fragment> fragments,
+                       const State& state) {
+        if (workspace_.cancelled()) return NodeRef::white();
+        if (fragments.empty()) return NodeRef::uniform(colors_.label(cell, state));
+        if (workspace_.is_simple(cell, fragments)) return workspace_.make_leaf(fragments);
+
+        const bsp::FragmentPool::Mark mark = workspace_.pool().mark();
+        std::array<Fragments, 8> octants;
+        workspace_.distribute(cell, fragments, octants);
+        NodeRef result;
+        if (workspace_.is_futile(fragments, octants)) {
+            result = workspace_.make_leaf(fragments);
+        } else {
+            const std::array<State, 8> states = colors_.octants(cell, fragments, state);
+            Octants children;
+            for (int i = 0; i < 8; ++i) {
+                const auto octant = static_cast<std::size_t>(i);
+                children[octant] = (*this)(cell.child(i), octants[octant], states[octant]);
+                Fragments().swap(octants[octant]);
+            }
+            result = workspace_.make_gray(cell, children);
+        }
+        workspace_.pool().release(mark);
+        return result;
+    }
+
+  private:
+    Workspace& workspace_;
+    Colors colors_;
+};
+
+}  // namespace octavo::bsp_octree

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <octavo/boolean/assemble.hpp>
+#include <octavo/boolean/point_table.hpp>
+#include <octavo/boolean/surface.hpp>
+#include <octavo/bsp_octree/borders.hpp>
+#include <octavo/bsp_octree/faces.hpp>
+#include <octavo/bsp_octree/fill.hpp>
+#include <octavo/bsp_octree/to_mesh.hpp>
+
+namespace octavo::bsp_octree {
+namespace {
+
+using boolean::PointId;
+using boolean::PointTable;
+using boolean::Soup;
+using boolean::Surface;
+
+/// The planes of a store as facets of a soup: facet k is the triangle that plane k was made from.
+Soup soup_of(const BspOctree& octree) {
+    const bsp::PlaneTable& planes = octree.store().planes;
+    Soup soup;
+    soup.lattice = octree.lattice();
+    soup.index = boolean::PointIndex(2 * planes.size());
+    soup.facets.reserve(planes.size());
+    for (bsp::PlaneId id = 0; id < planes.size(); ++id) {
+        mesh::Triangle facet;
+        for (std::size_t k = 0; k < 3; ++k) facet[k] = soup.index.add(planes.points(id)[k], soup.points);
+        soup.facets.push_back(facet);
+        soup.origin.push_back(id);
+    }
+    soup.first_triangle = {0, static_cast<std::uint32_t>(planes.size())};
+    return soup;
+}
+
+/// The edges of all fragments, their ends named by value.
+std::vector<BoundedSegment> edges_of(const BspOctree& octree, PointTable& points, MeshReport& report) {
+    std::vector<BoundedSegment> edges;
+    std::vector<PointId> ids;
+    for_each_boundary(octree, [&](const bsp::FragmentPool& pool, const Fragments& fragments) {
+        for (const bsp::Fragment& fragment : fragments) {
+            const std::span<const bsp::Corner> ring = pool.corners(fragment);
+            ids.clear();
+            for (const bsp::Corner& corner : ring) ids.push_back(points.add(pool.constructed(corner.vertex)));
+            for (std::size_t i = 0; i < ring.size(); ++i)
+                edges.push_back(
+                    {{fragment.facing, ids[i], ids[i + 1 == ring.size() ? 0 : i + 1]}, ring[i].edge});
+            ++report.fragments;
+        }
+    });
+    return edges;
+}
+
+bool is_unbounded(const BspOctree& octree) {
+    return octree.classify(octree.lattice().to_world({0, 0, 0})) == bsp::Position::in;
+}
+
+}  // namespace
+
+Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context) {
+    if (is_unbounded(octree)) return Error{ErrorCode::not_a_solid, "the solid has no outer boundary", {}};
+    ToMesh result;
+    const Soup soup = soup_of(octree);
+    PointTable points(soup);
+    context.report("faces", 0);
+    const std::vector<BoundedSegment> edges = edges_of(octree, points, result.report);
+    if (context.cancelled()) return Context::cancelled_error();
+    context.report("borders", 0.4);
+    const bsp::FragmentPool planes(octree.store().planes);
+    std::vector<Segment> borders;
+    if (!sum_borders(edges, planes, points, 0, borders) && !sum_borders(edges, planes, points, 1, borders))
+        return Error{ErrorCode::internal, "the borders of the faces do not close", {}};
+    result.report.segments = borders.size();
+    if (context.cancelled()) return Context::cancelled_error();
+
+    context.report("facets", 0.7);
+    const Surface surface = fill_borders(borders, octree.store().planes, points);
+    context.report("mesh", 0.9);
+    boolean::Assembled assembled =
+        boolean::assemble(surface, soup, points, std::vector<char>(points.size(), 1), context);
+    result.report.largest_rounding = assembled.largest_rounding;
+    result.report.inverted_facets = assembled.inverted_facets;
+    result.report.duplicated_vertices = assembled.duplicated_vertices;
+    result.mesh = std::move(assembled.mesh);
+    result.mesh.sources.clear();
+    return result;
+}
+
+mesh::Measures measure(const BspOctree& octree) {
+    OCTAVO_CHECK(!is_unbounded(octree), "a solid without an outer boundary has no measures");
+    const auto& origin = octree.lattice().origin();
+    const double unit = octree.lattice().unit();
+    mesh::Mesh soup;
+    for_each_boundary(octree, [&](const bsp::FragmentPool& pool, const Fragments& fragments) {
+        for (const bsp::Fragment& fragment : fragments) {
+            const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+            for (const bsp::Corner& corner : pool.corners(fragment)) {
+                const Vec3 at = pool.approximation(corner.vertex);
+                soup.vertices.push_back({(static_cast<double>(origin[0]) + at.x) * unit,
+                                         (static_cast<double>(origin[1]) + at.y) * unit,
+                                         (static_cast<double>(origin[2]) + at.z) * unit});
+            }
+            for (std::uint32_t k = 1; k + 1 < fragment.count; ++k) {
+                const std::uint32_t second = first + k, third = second + 1;
+                if (fragment.facing.reversed())
+                    soup.triangles.push_back({first, third, second});
+                else
+                    soup.triangles.push_back({first, second, third});
+            }
+        }
+    });
+    const mesh::Measures all = mesh::measure(soup);
+    mesh::Measures measures;
+    measures.volume = all.volume, measures.area = all.area;
+    measures.centroid = all.centroid, measures.inertia = all.inertia;
+    return measures;
+}
+
+}  // namespace octavo::bsp_octree

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <random>
+
+#include "bsp_octree/solid_cases.hpp"
+#include "models.hpp"
+#include <octavo/bsp_octree/borders.hpp>
+#include <octavo/io/read.hpp>
+#include <octavo/mesh/shapes.hpp>
+#include <octavo/mesh/snap.hpp>
+#include <octavo/mesh/transform.hpp>
+#include <octavo/query/inside.hpp>
+
+namespace octavo::bsp_octree {
+namespace {
+
+using tests::fine;
+
+/// A cube around the last lattice point of small_lattice(20).
+mesh::Mesh moved_to_border() {
+    mesh::Mesh mesh = mesh::cube(0.5);
+    const Vec3 last = tests::small_lattice(20).to_world({exact::universe_side - 1, 5, 5});
+    for (Vec3& vertex : mesh.vertices) vertex.x = vertex.x > 0 ? last.x : last.x - 0.5;
+    return mesh;
+}
+
+/// The solid of a mesh comes back exactly: same volume as an integer, and nothing that is not in both.
+void expect_round_trip(const mesh::Mesh& mesh, const MeshOptions& options, const std::string& what) {
+    const Result<mesh::Snapped> snapped = mesh::snap(mesh);
+    ASSERT_TRUE(snapped);
+    const exact::Lattice lattice = snapped->mesh.lattice;
+    const Result<Built> built = build(mesh, lattice, options);
+    ASSERT_TRUE(built) << what << ": " << built.error().describe();
+    const Result<ToMesh> back = to_mesh(built->octree);
+    ASSERT_TRUE(back) << what << ": " << back.error().describe();
+    EXPECT_EQ(tests::manifold_defect(back->mesh), "") << what;
+    EXPECT_LE(back->mesh.triangles.size(), mesh.triangles.size()) << what;
+    const Result<mesh::Snapped> again = mesh::snap(back->mesh, lattice);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->report.moved_vertices, 0U) << what << ": all vertices are vertices of the input";
+    EXPECT_TRUE(mesh::exact_volume6(again->mesh) == mesh::exact_volume6(snapped->mesh)) << what;
+    const Result<Built> second = build(back->mesh, lattice, options);
+    ASSERT_TRUE(second);
+    tests::expect_same(built->octree, second->octree, what);
+}
+
+TEST(Build, GivesBackWhatItGot) {
+    const mesh::Mesh shapes[] = {mesh::cube(),
+                                 mesh::tetrahedron(),
+                                 mesh::icosphere(1, 8),
+                                 mesh::torus(3, 1, 20, 10),
+                                 mesh::gear(),
+                                 mesh::bearing_housing(),
+                                 mesh::knot_tube(2, 3, 0.3, 60, 8),
+                                 mesh::displaced_sphere(8),
+                                 mesh::menger_sponge(2),
+                                 mesh::cone(1, 0, 3, 200),
+                                 mesh::cylinder(1, 20, 300)};
+    constexpr int compact = 4;
+    int number = 0;
+    for (const mesh::Mesh& mesh : shapes) {
+        ++number;
+        for (const std::uint32_t planes : {4U, 16U, 64U})
+            expect_round_trip(mesh, fine(planes),
+                              "shape " + std::to_string(number) + ", " + std::to_string(planes) + " planes");
+        MeshOptions options;
+        options.octree.stop = StopRule::common_point;
+        // Side by side, slivers share no point, and cells as small as they are narrow are many.
+        if (number <= compact)
+            expect_round_trip(mesh, options, "shape " + std::to_string(number) + ", common point");
+        for (const bsp::Partition partition : {bsp::Partition::random, bsp::Partition::first}) {
+            options = {};
+            options.octree.tree.partition = partition;
+            expect_round_trip(mesh, options, "shape " + std::to_string(number) + ", other partition");
+        }
+    }
+}
+
+TEST(Build, GivesBackTurnedShapes) {
+    // Off the axes nothing is a short number any more.
+    Affine turn;
+    turn.m = {{{0.36, 0.48, -0.8, 0.1}, {-0.8, 0.6, 0, 0.2}, {0.48, 0.64, 0.6, 0.3}}};
+    for (mesh::Mesh mesh : {mesh::gear(), mesh::bearing_housing(), mesh::menger_sponge(1)}) {
+        for (Vec3& vertex : mesh.vertices) vertex = turn(vertex);
+        // Faces of many triangles are not plane any more on the lattice, and may then cross; that is resolved.
+        const Result<Built> built = build(mesh);
+        ASSERT_TRUE(built);
+        const Result<ToMesh> back = to_mesh(built->octree);
+        ASSERT_TRUE(back);
+        EXPECT_EQ(tests::manifold_defect(back->mesh), "");
+        const double volume = tests::volume_of(mesh);
+        EXPECT_NEAR(tests::volume_of(back->mesh), volume, 1e-7 * volume);
+    }
+}
+
+TEST(Build, ResolvesSurfacesThatMeetThemselves) {
+    const auto box = [](tests::Grid low, tests::Grid high) { return tests::box(low, high).mesh; };
+    const auto volume = [](const mesh::Mesh& mesh) {
+        const Result<Built> built = build(mesh);
+        EXPECT_TRUE(built);
+        EXPECT_TRUE(built->report.resolved);
+        return measure(built->octree).volume;
+    };
+    // Overlapping, nested the same way, sharing a face, and twice the same.
+    EXPECT_NEAR(volume(tests::joined({box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3})})), 15, 1e-6);
+    EXPECT_NEAR(volume(tests::joined({box({0, 0, 0}, {3, 3, 3}), box({1, 1, 1}, {2, 2, 2})})), 27, 1e-6);
+    EXPECT_NEAR(volume(tests::joined({box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1})})), 2, 1e-6);
+    EXPECT_NEAR(volume(tests::joined({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1})})), 1, 1e-6);
+}
+
+TEST(Build, KnowsCavitiesAndPartsThatTouch) {
+    mesh::Mesh hollow = tests::box({1, 1, 1}, {2, 2, 2}).mesh;
+    for (mesh::Triangle& t : hollow.triangles) std::swap(t[1], t[2]);
+    const mesh::Mesh shell = tests::joined({tests::box({0, 0, 0}, {3, 3, 3}).mesh, hollow});
+    for (const std::uint32_t planes : {1U, 4U, 16U}) {
+        tests::expect_solid(tests::octree_of(shell, fine(planes)), 26, "cavity");
+        tests::expect_solid(tests::octree_of(tests::joined({tests::box({0, 0, 0}, {1, 1, 1}).mesh,
+                                                            tests::box({1, 1, 0}, {2, 2, 1}).mesh}),
+                                             fine(planes)),
+                            2, "edge contact");
+    }
+}
+
+TEST(Build, RefusesWhatIsNoSolid) {
+    mesh::Mesh open = mesh::cube();
+    open.triangles.pop_back();
+    const Result<Built> result = build(open);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::not_a_solid);
+    EXPECT_FALSE(result.error().place.faces.empty());
+
+    mesh::Mesh wild = mesh::cube();
+    wild.triangles[0][0] = 99;
+    MeshOptions trusting;
+    trusting.surface = SurfaceCheck::trust;
+    EXPECT_EQ(build(wild, trusting).error().code, ErrorCode::bad_input);
+    // A lattice in which there is no room left around the mesh.
+    EXPECT_EQ(build(moved_to_border(), tests::small_lattice(20)).error().code, ErrorCode::bad_input);
+}
+
+TEST(Build, OfNothingIsEmpty) {
+    const Result<Built> built = build(mesh::Mesh{});
+    ASSERT_TRUE(built);
+    EXPECT_TRUE(built->octree.is_empty());
+    const Result<ToMesh> back = to_mesh(built->octree);
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(back->mesh.triangles.empty());
+}
+
+TEST(Build, OfAVertexWithManyFacesEndsThere) {
+    // 500 faces meet in the apex: no subdivision separates them.
+    const mesh::Mesh cone = mesh::cone(1, 0, 1, 500);
+    const Result<Built> built = build(cone);
+    ASSERT_TRUE(built);
+    EXPECT_LT(built->octree.stats().deepest, 16);
+    EXPECT_GE(built->octree.stats().largest_tree, 500U);
+    EXPECT_NEAR(measure(built->octree).volume, tests::volume_of(cone), 1e-6);
+}
+
+TEST(Build, BringsClosedModelsBackExactly) {
+    for (const char* name : {"classic/homer.off", "classic/spot.obj", "mechanical/anchor-1k.off",
+                             "mechanical/pinion.off", "mechanical/hilbert-cube.obj", "mechanical/part.off"}) {
+        OCTAVO_NEEDS_MODEL(name);
+        const Result<io::ReadMesh> read = io::read_mesh((tests::models_folder() / name).string());
+        ASSERT_TRUE(read);
+        expect_round_trip(read->mesh, {}, name);
+    }
+}
+
+TEST(ToMesh, RefusesSolidsWithoutAnOuterBoundary) {
+    const Result<ToMesh> result = to_mesh(tests::octree_of(mesh::cube()).complement());
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::not_a_solid);
+}
+
+}  // namespace
+}  // namespace octavo::bsp_octree

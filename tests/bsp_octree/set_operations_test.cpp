@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <random>
+
+#include "bsp_octree/solid_cases.hpp"
+#include <octavo/boolean/evaluate.hpp>
+#include <octavo/mesh/shapes.hpp>
+
+namespace octavo::bsp_octree {
+namespace {
+
+using tests::Convex;
+using tests::expect_same;
+using tests::fine;
+using tests::octree_of;
+
+mesh::Mesh moved(mesh::Mesh mesh, Vec3 by, double scale = 1) {
+    for (Vec3& vertex : mesh.vertices) vertex = scale * vertex + by;
+    return mesh;
+}
+
+mesh::Mesh cube(double x, double y, double z, double side = 1) {
+    return moved(tests::box({0, 0, 0}, {1, 1, 1}).mesh, {x, y, z}, side);
+}
+
+/// Volumes of A ∩ B, A and B, found by trying all triples of planes in integers.
+struct Volumes {
+    double first, second, both;
+};
+Volumes volumes_of(const Convex& first, const Convex& second) {
+    std::vector<tests::HalfSpace> sides = first.sides;
+    sides.insert(sides.end(), second.sides.begin(), second.sides.end());
+    return {tests::volume_of(first.sides), tests::volume_of(second.sides), tests::volume_of(sides)};
+}
+
+class RandomConvexBodies : public testing::TestWithParam<std::tuple<int, std::uint32_t>> {};
+
+TEST_P(RandomConvexBodies, GiveTheVolumesThatRationalClippingGives) {
+    const auto [side, planes] = GetParam();
+    for (int run = 0; run < 150 * tests::effort() && !HasFailure(); ++run) {
+        std::mt19937 random(static_cast<unsigned>(run * 100 + side));
+        const Convex a = tests::random_convex(random, side);
+        const Convex b = run % 8 == 7 ? a : tests::random_convex(random, side);
+        const Volumes volume = volumes_of(a, b);
+        const BspOctree first = octree_of(a.mesh, fine(planes)), second = octree_of(b.mesh, fine(planes));
+        const std::string what = "run " + std::to_string(run);
+        tests::expect_solid(*first.intersect(second), volume.both, what + " intersection");
+        tests::expect_solid(*first.unite(second), volume.first + volume.second - volume.both,
+                            what + " union");
+        tests::expect_solid(*first.subtract(second), volume.first - volume.both, what + " difference");
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, RandomConvexBodies,
+                         testing::Combine(testing::Values(2, 3, 5), testing::Values(1U, 4U, 16U)));
+
+TEST(SetOperations, KeepTheLawsOfSetsExactly) {
+    for (int run = 0; run < 60 * tests::effort() && !HasFailure(); ++run) {
+        std::mt19937 random(static_cast<unsigned>(run));
+        const std::uint32_t planes = run % 3 == 0 ? 1 : run % 3 == 1 ? 4 : 16;
+        const auto solid = [&] { return octree_of(tests::random_convex(random, 4).mesh, fine(planes)); };
+        const BspOctree a = solid(), b = solid(), c = solid();
+        const std::string what = "run " + std::to_string(run);
+        expect_same(*a.unite(b), *b.unite(a), what + ": A ∪ B = B ∪ A");
+        expect_same(*a.intersect(b), *b.intersect(a), what + ": A ∩ B = B ∩ A");
+        expect_same(*a.subtract(*b.unite(c)), *a.subtract(b)->subtract(c),
+                    what + ": A − (B ∪ C) = A − B − C");
+        expect_same(*a.intersect(*b.unite(c)), *a.intersect(b)->unite(*a.intersect(c)),
+                    what + ": distribution");
+        expect_same(*a.unite(b), a.complement().intersect(b.complement())->complement(),
+                    what + ": De Morgan");
+        expect_same(*a.subtract(b)->unite(*a.intersect(b)), a, what + ": A − B ∪ A ∩ B = A");
+        EXPECT_TRUE(a.subtract(a)->is_empty()) << what;
+        EXPECT_TRUE(a.intersect(a.complement())->is_empty()) << what;
+        EXPECT_TRUE(a.unite(a.complement())->is_everything()) << what;
+        EXPECT_EQ(a.complement().complement().root(), a.root()) << what;
+    }
+}
+
+TEST(SetOperations, AgreeWithBooleansOfMeshesOnSolidsOfManyFacets) {
+    const mesh::Mesh shapes[] = {mesh::icosphere(3, 6), moved(mesh::torus(3, 1.25, 24, 12), {1, 0.5, 0.25}),
+                                 moved(mesh::displaced_sphere(5), {1.5, -0.5, 0.75}, 2), mesh::gear()};
+    const exact::Lattice lattice = tests::small_lattice(12);
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (i == k) continue;
+            // Both engines must get the same vertices, those on the lattice.
+            std::vector<mesh::Mesh> operands{shapes[i], shapes[k]};
+            for (mesh::Mesh& mesh : operands)
+                for (Vec3& vertex : mesh.vertices) vertex = lattice.to_world(lattice.snap(vertex));
+            const BspOctree first = octree_of(operands[0], fine(8), lattice),
+                            second = octree_of(operands[1], fine(16), lattice);
+            const std::string what = std::to_string(i) + " and " + std::to_string(k);
+            const auto check = [&](const BspOctree& ours, const Result<boolean::Evaluated>& theirs) {
+                ASSERT_TRUE(theirs);
+                const mesh::Measures expected = mesh::measure(theirs->mesh), found = measure(ours);
+                tests::expect_solid(ours, expected.volume, what);
+                EXPECT_NEAR(found.area, expected.area, 1e-9 * expected.area) << what;
+                EXPECT_NEAR(length(found.centroid - expected.centroid), 0, 1e-8) << what;
+            };
+            check(*first.unite(second), boolean::unite(operands));
+            check(*first.intersect(second), boolean::intersect(operands));
+            check(*first.subtract(second), boolean::subtract(operands));
+        }
+}
+
+/// Solids that touch in a face, a part of one, an edge, a vertex, or are the same.
+TEST(SetOperations, TakeContactsOfAllKinds) {
+    const struct {
+        mesh::Mesh other;
+        double both;
+    } cases[] = {{cube(0, 0, 0), 1},
+                 {cube(1, 0, 0), 0},
+                 {cube(1, 0.5, 0.25), 0},
+                 {cube(1, 1, 0), 0},
+                 {cube(1, 1, 1), 0},
+                 {cube(0.5, 0, 0), 0.5},
+                 {cube(0, 0, 0, 2), 1},
+                 {cube(0.25, 0.25, 0.25, 0.5), 0.125},
+                 {cube(0.5, 0, 0, 0.5), 0.125},
+                 {cube(2, 0, 0), 0}};
+    for (const std::uint32_t planes : {1U, 3U, 16U})
+        for (const auto& [other, both] : cases) {
+            const BspOctree a = octree_of(cube(0, 0, 0), fine(planes)), b = octree_of(other, fine(planes));
+            const double volume = tests::volume_of(other);
+            const std::string what = "volumes 1 and " + std::to_string(volume);
+            tests::expect_solid(*a.intersect(b), both, what);
+            tests::expect_solid(*a.unite(b), 1 + volume - both, what);
+            tests::expect_solid(*a.subtract(b), 1 - both, what);
+            tests::expect_solid(*b.subtract(a), volume - both, what);
+        }
+}
+
+TEST(SetOperations, CoplanarFacesBecomeOneAgain) {
+    // Two boxes side by side are one box: six faces of two triangles.
+    const BspOctree a = octree_of(cube(0, 0, 0)), b = octree_of(cube(1, 0, 0));
+    EXPECT_EQ(to_mesh(*a.unite(b))->mesh.triangles.size(), 12U);
+}
+
+TEST(SetOperations, RefuseSolidsOnDifferentLattices) {
+    const BspOctree a = octree_of(cube(0, 0, 0)), b = octree_of(cube(0, 0, 0), {}, tests::small_lattice(5));
+    const Result<BspOctree> result = a.unite(b);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::bad_input);
+}
+
+TEST(SetOperations, LeaveVersionsAloneAndShareWhatTheyDoNotTouch) {
+    const BspOctree before = octree_of(mesh::icosphere(20, 24), fine(16), tests::small_lattice(12));
+    const Stats stats = before.stats();
+    const std::size_t nodes = before.store().nodes.size();
+    Edit edit;
+    const BspOctree after =
+        *before.subtract(octree_of(cube(19, -0.5, -0.5), fine(16), tests::small_lattice(12)), &edit);
+    EXPECT_EQ(before.stats().bsp_nodes, stats.bsp_nodes);
+    // The tool's nodes and those of the cells that it touches were added, and no more.
+    EXPECT_LT(after.store().nodes.size() - nodes, nodes / 10);
+    EXPECT_FALSE(edit.changed.empty());
+    EXPECT_GT(edit.merged_cells, 0U);
+    // What changed lies about the tool.
+    const exact::Lattice lattice = before.lattice();
+    for (const octree::Cell& cell : edit.changed) {
+        const Vec3 low = lattice.to_world(cell.low), high = lattice.to_world(cell.high());
+        EXPECT_TRUE(low.x <= 20 && high.x >= 19 && low.y <= 0.5 && high.y >= -0.5 && low.z <= 0.5 &&
+                    high.z >= -0.5)
+            << low.x << ' ' << low.y << ' ' << low.z << " to " << high.x << ' ' << high.y << ' ' << high.z;
+    }
+    expect_same(*after.unite(*before.subtract(after)), before, "the part put back");
+}
+
+TEST(SetOperations, LongChainsStayExactAndSmall) {
+    // A box is cut away and filled again, crookedly, a thousand times; in the end it is the box, in few cells.
+    const BspOctree start = octree_of(tests::box({-8, -8, -8}, {8, 8, 8}).mesh, {}, tests::small_lattice(16));
+    BspOctree solid = start;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> at(-8, 8);
+    const mesh::Mesh tool = mesh::icosphere(1.5, 2);
+    std::vector<BspOctree> bites;
+    MeshOptions trusting;
+    trusting.surface = SurfaceCheck::trust;
+    for (int step = 0; step < 500; ++step) {
+        const BspOctree bite =
+            octree_of(moved(tool, {at(random), at(random), at(random)}), trusting, tests::small_lattice(16));
+        bites.push_back(*solid.intersect(bite));
+        solid = *solid.subtract(bite);
+        if (step % 50 == 49) solid = solid.compacted();
+    }
+    double removed = 0;
+    for (const BspOctree& bite : bites) removed += measure(bite).volume;
+    tests::expect_solid(solid, 16 * 16 * 16 - removed, "after 500 cuts");
+    for (std::size_t i = bites.size(); i-- > 0;) {
+        solid = *solid.unite(bites[i]);
+        if (i % 50 == 0) solid = solid.compacted();
+    }
+    expect_same(solid, start, "after putting all back");
+    EXPECT_LE(solid.stats().bsp_nodes, 100U);
+    EXPECT_LE(solid.stats().deepest, 3);
+}
+
+}  // namespace
+}  // namespace octavo::bsp_octree
