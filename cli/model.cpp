@@ -5,6 +5,8 @@
 
 #include <octavo/boolean/expression.hpp>
 #include <octavo/bp_octree/to_mesh.hpp>
+#include <octavo/bsp_octree/bso_file.hpp>
+#include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/classic/to_mesh.hpp>
 #include <octavo/io/assimp_import.hpp>
 #include <octavo/io/format.hpp>
@@ -60,6 +62,21 @@ Result<io::ReadMesh> triangles_of_bp_octree(Session& session, const Context& con
     return read;
 }
 
+Result<io::ReadMesh> faces_of_bsp_octree(Session& session, const Context& context, const std::string& path) {
+    session.inputs.push_back(path);
+    Result<bsp_octree::BspOctree> tree =
+        session.timed("read", [&] { return bsp_octree::read_bso(path, context); });
+    if (!tree) return std::move(tree).error();
+    Result<bsp_octree::ToMesh> made =
+        session.timed("to_mesh", [&] { return bsp_octree::to_mesh(*tree, context); });
+    if (!made) return in_file(std::move(made).error(), path);
+    io::ReadMesh read;
+    read.format = "bso";
+    read.mesh = std::move(made->mesh);
+    read.polygons = read.mesh.triangles.size();
+    return read;
+}
+
 }  // namespace
 
 ModelKind kind_of(const std::string& path, const std::string& format) {
@@ -67,6 +84,7 @@ ModelKind kind_of(const std::string& path, const std::string& format) {
     if (extension == "csg") return ModelKind::csg;
     if (extension == "oct") return ModelKind::octree;
     if (extension == "bpo") return ModelKind::bp_octree;
+    if (extension == "bso") return ModelKind::bsp_octree;
     return ModelKind::mesh;
 }
 
@@ -74,7 +92,7 @@ std::string check_model_format(const std::string& text) {
     const std::string name = io::extension_of("." + text);
     if (io::mesh_format_named(name) || kind_of("", name) != ModelKind::mesh || io::assimp_reads(name))
         return "";
-    return fmt::format("must be {}, csg, oct, bpo or a format that assimp reads, not {}",
+    return fmt::format("must be {}, csg, oct, bpo, bso or a format that assimp reads, not {}",
                        io::mesh_format_names(), text);
 }
 
@@ -86,6 +104,7 @@ Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const s
             return unsupported(path, "is a CSG tree, not a mesh; octavo convert makes a mesh of it");
         case ModelKind::octree:
         case ModelKind::bp_octree:
+        case ModelKind::bsp_octree:
             return unsupported(path,
                                "is an octree, not a mesh; octavo stats tells what is in it, octavo convert "
                                "makes a mesh of it");
@@ -108,6 +127,8 @@ Result<io::ReadMesh> read_surface(Session& session, const Context& context, cons
             return boundary_of_octree(session, context, path);
         case ModelKind::bp_octree:
             return triangles_of_bp_octree(session, context, path);
+        case ModelKind::bsp_octree:
+            return faces_of_bsp_octree(session, context, path);
         case ModelKind::mesh:
             break;
     }

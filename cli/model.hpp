@@ -20,7 +20,7 @@
 namespace octavo::cli {
 
 /// What a file's extension says it is, as far as verbs care.
-enum class ModelKind { mesh, csg, octree, bp_octree };
+enum class ModelKind { mesh, csg, octree, bp_octree, bsp_octree };
 
 ModelKind kind_of(const std::string& path, const std::string& format);
 
@@ -33,7 +33,7 @@ Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const s
 
 /// Reads the surface of whatever bounds a solid: a mesh as it is; a CSG tree evaluated exactly, with round things as
 /// the polyhedra that OpenSCAD makes of them; an octree as the boundary of its black cells; a BP-octree as its exact
-/// triangles.
+/// triangles; a BSP-octree as its faces.
 Result<io::ReadMesh> read_surface(Session& session, const Context& context, const std::string& path,
                                   const std::string& format = "");
 

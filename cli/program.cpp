@@ -89,9 +89,11 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     add_repair(*this);
     add_convert(*this);
     add_boolean(*this);
+    add_mill(*this);
     add_shape(*this);
     add_octree(*this);
     add_build(*this);
+    add_bsp(*this);
     add_stats(*this);
     add_contains(*this);
     add_distance(*this);

@@ -41,6 +41,7 @@ void add_repair(Program& program);
 void add_convert(Program& program);
 void add_octree(Program& program);
 void add_build(Program& program);
+void add_bsp(Program& program);
 void add_stats(Program& program);
 void add_contains(Program& program);
 void add_distance(Program& program);
@@ -48,6 +49,7 @@ void add_render(Program& program);
 void add_shape(Program& program);
 void add_boolean(Program& program);
 void add_hexmesh(Program& program);
+void add_mill(Program& program);
 void add_completion(Program& program);
 void add_man(Program& program);
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bp_octree_facts.hpp"
+#include "bsp_octree_facts.hpp"
 #include "model.hpp"
 #include "octree_facts.hpp"
 #include "program.hpp"
+#include <octavo/bsp_octree/bso_file.hpp>
+#include <octavo/bsp_octree/bso_format.hpp>
 #include <octavo/octree/oct_format.hpp>
 
-// `octavo stats FILE`: what is inside a file that Octavo built (.oct, .bpo).
+// `octavo stats FILE`: what is inside a file that Octavo built (.oct, .bpo, .bso).
 
 namespace octavo::cli {
 namespace {
@@ -20,9 +23,19 @@ Result<ExitCode> bp_octree_stats(Session& session, const Context& context, const
     return ExitCode::ok;
 }
 
+Result<ExitCode> bsp_octree_stats(Session& session, const Context& context, const std::string& input) {
+    session.inputs.push_back(input);
+    Result<bsp_octree::BspOctree> tree =
+        session.timed("read", [&] { return bsp_octree::read_bso(input, context); });
+    if (!tree) return std::move(tree).error();
+    tell(session, *tree, bsp_octree::encode(*tree).size());
+    return ExitCode::ok;
+}
+
 Result<ExitCode> stats(Session& session, const std::string& input) {
     const Context context = session.context();
     if (kind_of(input, "") == ModelKind::bp_octree) return bp_octree_stats(session, context, input);
+    if (kind_of(input, "") == ModelKind::bsp_octree) return bsp_octree_stats(session, context, input);
     Result<octree::Octree> tree = read_octree(session, context, input);
     if (!tree) return std::move(tree).error();
     const TreeFile file{"oct", octree::encode(*tree).size()};
@@ -37,7 +50,8 @@ void add_stats(Program& program) {
     const auto input = std::make_shared<std::string>();
     CLI::App* verb = program.verb("stats", "Trees", "Tell what is inside an octree file",
                                   [input](Session& session) { return stats(session, *input); });
-    verb->add_option("FILE", *input, "An octree (.oct; - is stdin) or a BP-octree (.bpo)")
+    verb->add_option("FILE", *input,
+                     "An octree (.oct; - is stdin), a BP-octree (.bpo) or a BSP-octree (.bso)")
         ->required()
         ->type_name("FILE");
 }

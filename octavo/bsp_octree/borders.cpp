@@ -143,15 +143,22 @@ bool lies_on(const PointTable& points, PointId point, const exact::Plane& plane)
     return points.with(point, [&](const auto& p) { return exact::side_of(plane, p) == Sign::zero; });
 }
 
-/// At every point, as many segments of a facing end as start.
+/// At every point, as many segments of a facing end as start; and on every segment, the solid is on one side of as
+/// many faces as it is on the other side of.
 bool closes(const std::vector<Segment>& borders) {
-    std::vector<std::pair<std::uint32_t, PointId>> starts, ends;
+    using Run = std::pair<std::uint32_t, std::uint32_t>;
+    const auto are_equal = [](std::vector<Run> first, std::vector<Run> second) {
+        std::sort(first.begin(), first.end()), std::sort(second.begin(), second.end());
+        return first == second;
+    };
+    std::vector<Run> starts, ends, along, against;
     for (const Segment& s : borders) {
         starts.push_back({s.facing.bits, s.from});
         ends.push_back({s.facing.bits, s.to});
+        along.push_back(s.facing.reversed() ? Run{s.to, s.from} : Run{s.from, s.to});
+        against.push_back({along.back().second, along.back().first});
     }
-    std::sort(starts.begin(), starts.end()), std::sort(ends.begin(), ends.end());
-    return starts == ends;
+    return are_equal(std::move(starts), std::move(ends)) && are_equal(std::move(along), std::move(against));
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ struct BoundedSegment {
     bsp::Bound bound;
 };
 
-/// The borders, sorted by facing. `points` names the ends. None when borders do not close with the keys of this
-/// attempt (line_key.hpp).
+/// The borders, sorted by facing. `points` names the ends. False when they do not close: the keys of this attempt
+/// failed (line_key.hpp), or the fragments are no boundary.
 bool sum_borders(std::vector<BoundedSegment> edges, const bsp::FragmentPool& planes,
                  const boolean::PointTable& points, int attempt, std::vector<Segment>& borders);
 

@@ -35,13 +35,16 @@ class PlaneFiller {
             return add(facing, {s.from, s.to, third}, surface);
         }
         begin(borders);
+        corners_.clear();
+        for (const Segment& s : borders) corners_.push_back({s.from, Subdivision::no_line});
+        subdivision_.add_points(corners_);
         constexpr std::uint32_t border = 0, slit = 1;
         for (const Segment& s : borders) {
             // What the faces have on both sides does not lead out of them.
             const bool both =
                 std::binary_search(borders.begin(), borders.end(), Segment{facing, s.to, s.from});
-            subdivision_.add_segment(subdivision_.add_point(s.from), subdivision_.add_point(s.to), 0,
-                                     both ? slit : border);
+            subdivision_.add_segment(subdivision_.vertex_of(s.from), subdivision_.vertex_of(s.to),
+                                     Subdivision::no_line, both ? slit : border);
         }
         subdivision_.refine();
         flood(border);
@@ -148,6 +151,7 @@ class PlaneFiller {
     Subdivision subdivision_;
     std::vector<char> state_;
     std::vector<std::uint32_t> stack_;
+    std::vector<Subdivision::PointOnLine> corners_;
     std::vector<Segment> rim_;  ///< edges of triangles inside, on borders
 };
 

@@ -6,6 +6,7 @@
 #include <octavo/bsp_octree/faces.hpp>
 #include <octavo/bsp_octree/fill.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
+#include <octavo/mesh/weld.hpp>
 
 namespace octavo::bsp_octree {
 namespace {
@@ -20,14 +21,16 @@ Soup soup_of(const BspOctree& octree) {
     const bsp::PlaneTable& planes = octree.store().planes;
     Soup soup;
     soup.lattice = octree.lattice();
-    soup.index = boolean::PointIndex(2 * planes.size());
-    soup.facets.reserve(planes.size());
+    std::vector<exact::Point> corners;
+    corners.reserve(3 * planes.size());
     for (bsp::PlaneId id = 0; id < planes.size(); ++id) {
-        mesh::Triangle facet;
-        for (std::size_t k = 0; k < 3; ++k) facet[k] = soup.index.add(planes.points(id)[k], soup.points);
-        soup.facets.push_back(facet);
+        corners.insert(corners.end(), planes.points(id).begin(), planes.points(id).end());
         soup.origin.push_back(id);
     }
+    const mesh::WeldMap weld = mesh::equal_vertices(corners);
+    for (const mesh::VertexIndex kept : weld.kept) soup.points.push_back(corners[kept]);
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+        soup.facets.push_back({weld.index[i], weld.index[i + 1], weld.index[i + 2]});
     soup.first_triangle = {0, static_cast<std::uint32_t>(planes.size())};
     return soup;
 }
@@ -68,7 +71,7 @@ Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context) {
     const bsp::FragmentPool planes(octree.store().planes);
     std::vector<Segment> borders;
     if (!sum_borders(edges, planes, points, 0, borders) && !sum_borders(edges, planes, points, 1, borders))
-        return Error{ErrorCode::internal, "the borders of the faces do not close", {}};
+        return Error{ErrorCode::not_a_solid, "the faces of the trees do not close to a surface", {}};
     result.report.segments = borders.size();
     if (context.cancelled()) return Context::cancelled_error();
 

@@ -37,7 +37,8 @@ struct ToMesh {
     MeshReport report;
 };
 
-/// Errors: not_a_solid when the solid is unbounded (a complement), cancelled.
+/// Errors: not_a_solid when the solid is unbounded (a complement), or its faces do not close, as those of a file may
+/// that was made to lie; cancelled.
 Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context = {});
 
 /// Volume, area, centroid and inertia straight from the leaves, without a mesh. Counts of vertices and edges, bounds,

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "bsp_octree_facts.hpp"
+#include "model.hpp"
+#include "program.hpp"
+#include <octavo/bsp_octree/bso_file.hpp>
+#include <octavo/bsp_octree/bso_format.hpp>
+#include <octavo/bsp_octree/build.hpp>
+#include <octavo/bsp_octree/to_mesh.hpp>
+
+// `octavo bsp FILE -o OUT.bso`: the BSP-octree of a solid, exactly; and from a .bso file back to a mesh.
+
+namespace octavo::cli {
+namespace {
+
+struct BspArguments {
+    std::string input, output, format, stop = "few-planes";
+    std::uint32_t planes = 16;
+    int depth = 26;
+};
+
+Result<bsp_octree::BspOctree> load(Session& session, const Context& context, const BspArguments& arguments) {
+    if (kind_of(arguments.input, arguments.format) == ModelKind::bsp_octree) {
+        session.inputs.push_back(arguments.input);
+        return session.timed("read", [&] { return bsp_octree::read_bso(arguments.input, context); });
+    }
+    Result<io::ReadMesh> read = read_mesh(session, context, arguments.input, arguments.format);
+    if (!read) return std::move(read).error();
+    bsp_octree::MeshOptions options;
+    options.octree.planes = arguments.planes;
+    options.octree.depth = arguments.depth;
+    if (arguments.stop == "common-point") options.octree.stop = bsp_octree::StopRule::common_point;
+    Result<bsp_octree::Built> built =
+        session.timed("build", [&] { return bsp_octree::build(read->mesh, options, context); });
+    if (!built) return in_file(std::move(built).error(), arguments.input);
+    session.warn(built->report.warnings);
+    if (built->report.resolved)
+        session.warn("the surface meets itself; the tree is that of where it winds about a point");
+    return std::move(built->octree);
+}
+
+/// Writes a .bso file, or the mesh of the tree in any other format.
+Result<io::WriteReport> store(Session& session, const Context& context, const bsp_octree::BspOctree& octree,
+                              const std::string& path) {
+    if (kind_of(path, "") == ModelKind::bsp_octree || path == "-") {
+        if (path == "-") session.stdout_taken = true;
+        return session.timed("write", [&] { return bsp_octree::write_bso(path, octree, context); });
+    }
+    Result<bsp_octree::ToMesh> made =
+        session.timed("mesh", [&] { return bsp_octree::to_mesh(octree, context); });
+    if (!made) return std::move(made).error();
+    return write_mesh(session, context, path, made->mesh);
+}
+
+Result<ExitCode> make_bsp(Session& session, const BspArguments& arguments) {
+    const Context context = session.context();
+    if (same_file(arguments.input, arguments.output)) return would_overwrite(arguments.output);
+    Result<bsp_octree::BspOctree> octree = load(session, context, arguments);
+    if (!octree) return std::move(octree).error();
+    if (!arguments.output.empty()) {
+        const Result<io::WriteReport> written = store(session, context, *octree, arguments.output);
+        if (!written) return written.error();
+    }
+    tell(session, *octree, bsp_octree::encode(*octree).size());
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_bsp(Program& program) {
+    const auto arguments = std::make_shared<BspArguments>();
+    CLI::App* verb = program.verb("bsp", "Trees", "Make the BSP-octree of a solid, exactly, or a mesh of one",
+                                  [arguments](Session& session) { return make_bsp(session, *arguments); });
+    verb->add_option("FILE", arguments->input, "A closed mesh (- is stdin), or a BSP-octree (.bso)")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option(
+            "-o,--output", arguments->output,
+            "The BSP-octree to write (.bso; - is stdout), or a mesh of it; without it only facts are told")
+        ->type_name("FILE");
+    verb->add_option("--planes", arguments->planes, "Most planes of a leaf under --stop few-planes")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N");
+    verb->add_option("--stop", arguments->stop, "When a cell is a leaf: few-planes or common-point")
+        ->check(CLI::IsMember({"few-planes", "common-point"}))
+        ->type_name("RULE");
+    verb->add_option("--depth", arguments->depth,
+                     "Cells of this level are leaves, however many planes they have")
+        ->check(CLI::Range(0, 26))
+        ->type_name("N");
+    verb->add_option("--from", arguments->format, "Format of the input, instead of by its extension")
+        ->type_name("FORMAT");
+}
+
+}  // namespace octavo::cli

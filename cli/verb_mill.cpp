@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "model.hpp"
+#include "program.hpp"
+#include <octavo/bsp_octree/mill.hpp>
+#include <octavo/bsp_octree/to_mesh.hpp>
+#include <octavo/io/poses.hpp>
+
+// `octavo mill WORK --tool T --path poses.csv -o OUT`: thousands of exact subtractions of a tool, one after the other,
+// each at the cost of what it touches.
+
+namespace octavo::cli {
+namespace {
+
+struct MillArguments {
+    std::string work, tool, path, output, format;
+};
+
+double quantile(std::vector<double> values, double part) {
+    if (values.empty()) return 0;
+    const auto at =
+        std::min(values.size() - 1, static_cast<std::size_t>(part * static_cast<double>(values.size())));
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+    return values[at];
+}
+
+void tell(Session& session, const bsp_octree::Milled& milled, const bsp_octree::ToMesh& made,
+          const std::string& output) {
+    const mesh::Measures measures = mesh::measure(made.mesh);
+    const bsp_octree::MillReport& report = milled.report;
+    const double median = quantile(report.step_seconds, 0.5);
+    session.result = {{"steps", report.steps},
+                      {"triangles", made.mesh.triangles.size()},
+                      {"volume", measures.volume},
+                      {"seconds_per_step", median},
+                      {"area", measures.area},
+                      {"cutting_steps", report.cutting_steps},
+                      {"slowest_step", quantile(report.step_seconds, 1)},
+                      {"bytes", milled.solid.store().bytes()},
+                      {"largest_rounding", made.report.largest_rounding},
+                      {"inverted_facets", made.report.inverted_facets}};
+    session.text = fmt::format("{}: {} triangles, volume {:.10g}, after {} steps, {:.2f} ms each (median)\n",
+                               output, grouped(made.mesh.triangles.size()), measures.volume,
+                               grouped(report.steps), 1e3 * median);
+    if (made.mesh.triangles.empty()) session.warn("nothing is left of the workpiece");
+    if (report.cutting_steps == 0) session.warn("the tool never meets the workpiece");
+}
+
+Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
+    const Context context = session.context();
+    for (const std::string& input : {arguments.work, arguments.tool, arguments.path})
+        if (same_file(input, arguments.output)) return would_overwrite(input);
+    Result<io::ReadMesh> work = read_mesh(session, context, arguments.work);
+    if (!work) return std::move(work).error();
+    Result<io::ReadMesh> tool = read_mesh(session, context, arguments.tool);
+    if (!tool) return std::move(tool).error();
+    session.inputs.push_back(arguments.path);
+    Result<std::vector<Affine>> poses =
+        session.timed("read", [&] { return io::read_poses(arguments.path, context); });
+    if (!poses) return std::move(poses).error();
+
+    Result<bsp_octree::Milled> milled =
+        session.timed("mill", [&] { return bsp_octree::mill(work->mesh, tool->mesh, *poses, {}, context); });
+    if (!milled) return std::move(milled).error();
+    Result<bsp_octree::ToMesh> made =
+        session.timed("mesh", [&] { return bsp_octree::to_mesh(milled->solid, context); });
+    if (!made) return std::move(made).error();
+    io::WriteOptions writing;
+    writing.format = arguments.format;
+    Result<io::WriteReport> written = write_mesh(session, context, arguments.output, made->mesh, writing);
+    if (!written) return std::move(written).error();
+    tell(session, *milled, *made, arguments.output);
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_mill(Program& program) {
+    const auto arguments = std::make_shared<MillArguments>();
+    CLI::App* verb = program.verb("mill", "Edit", "Subtract a tool at thousands of poses, exactly",
+                                  [arguments](Session& session) { return mill(session, *arguments); });
+    verb->add_option("WORK", arguments->work, "The workpiece, a closed mesh")->required()->type_name("FILE");
+    verb->add_option("--tool", arguments->tool, "The tool, a closed mesh about its own origin")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("--path", arguments->path,
+                     "Poses of the tool, one a line: x,y,z, or 12 numbers (3 rows of 4, row-major)")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("-o,--output", arguments->output, "The mesh to write; - is stdout")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("--to", arguments->format, "Format of the output, instead of by its extension")
+        ->type_name("FORMAT");
+}
+
+}  // namespace octavo::cli
