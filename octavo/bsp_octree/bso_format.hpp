@@ -14,7 +14,7 @@
 // planes. A plane is three lattice points, and neighbours share points: so points are a table too, and a plane is
 // three references. References say "the next new one" with one bit, else how far back the one meant was first used;
 // since tables are in the order of first use, and neighbours in space come soon after one another, that is short.
-// Measured: 15 to 17 bytes a triangle, less than a binary PLY's 19.
+// Measured: 11.5 bytes a triangle of the closed bunny, 11.8 of the armadillo; a binary PLY has 19.
 
 namespace octavo::bsp_octree {
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/program.hpp"
+
+// The verbs of BSP-octrees: bsp, mill, stats and convert on .bso.
+
+namespace octavo::tests {
+namespace {
+
+using BspVerbs = ProgramTest;
+
+TEST_F(BspVerbs, MakeTreesAndMeshesOfThem) {
+    ASSERT_EQ(octavo("shape gear -o gear.ply").exit_code, 0);
+    const Ran made = octavo("bsp gear.ply -o gear.bso --json");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    for (const char* key : {"leaves", "white", "black", "bsp_leaves", "bsp_nodes", "planes", "bytes"})
+        EXPECT_TRUE(made.json()["result"].contains(key)) << key;
+    EXPECT_EQ(made.json()["result"]["bytes"], read("gear.bso").size());
+    const Ran stats = octavo("stats gear.bso --json");
+    ASSERT_EQ(stats.exit_code, 0) << stats.err;
+    EXPECT_EQ(stats.json()["result"]["bsp_nodes"], made.json()["result"]["bsp_nodes"]);
+    // Back to a mesh, both ways.
+    ASSERT_EQ(octavo("bsp gear.bso -o back.ply").exit_code, 0);
+    ASSERT_EQ(octavo("convert gear.bso other.ply").exit_code, 0);
+    EXPECT_EQ(octavo("check back.ply").exit_code, 0);
+    const double volume = octavo("info gear.ply --json").json()["result"]["volume"];
+    for (const char* file : {"back.ply", "other.ply"})
+        EXPECT_NEAR(octavo(std::string("info --json ") + file).json()["result"]["volume"], volume,
+                    1e-6 * volume);
+}
+
+TEST_F(BspVerbs, MillTakesTheToolAwayAtEveryPose) {
+    ASSERT_EQ(octavo("shape cube -o work.ply").exit_code, 0);
+    ASSERT_EQ(octavo("shape cube -o tool.ply").exit_code, 0);
+    // Unit cubes about the origin: each pose takes away an eighth, the last one nothing.
+    write("poses.csv", "x,y,z\n0.5,0.5,0.5\n-0.5,0.5,0.5\n5,5,5\n");
+    const Ran milled = octavo("mill work.ply --tool tool.ply --path poses.csv -o part.ply --json");
+    ASSERT_EQ(milled.exit_code, 0) << milled.err;
+    const auto result = milled.json()["result"];
+    EXPECT_EQ(result["steps"], 3);
+    EXPECT_EQ(result["cutting_steps"], 2);
+    EXPECT_NEAR(result["volume"], 0.75, 1e-6);
+    EXPECT_TRUE(result.contains("triangles"));
+    EXPECT_TRUE(result.contains("seconds_per_step"));
+    EXPECT_EQ(octavo("check part.ply").exit_code, 0);
+}
+
+TEST_F(BspVerbs, RefuseBadFilesWithTheirPlace) {
+    ASSERT_EQ(octavo("shape cube -o cube.ply").exit_code, 0);
+    write("poses.csv", "1,2,3\n1,2\n");
+    const Ran poses = octavo("mill cube.ply --tool cube.ply --path poses.csv -o part.ply");
+    EXPECT_EQ(poses.exit_code, 3);
+    EXPECT_NE(poses.err.find("poses.csv:2"), std::string::npos) << poses.err;
+    EXPECT_EQ(read("part.ply"), "") << "nothing half done is written";
+    ASSERT_EQ(octavo("bsp cube.ply -o cube.bso").exit_code, 0);
+    std::string bytes = read("cube.bso");
+    bytes.back() = static_cast<char>(bytes.back() ^ 1);
+    write("damaged.bso", bytes);
+    const Ran damaged = octavo("stats damaged.bso");
+    EXPECT_EQ(damaged.exit_code, 3);
+    EXPECT_NE(damaged.err.find("checksum"), std::string::npos) << damaged.err;
+}
+
+}  // namespace
+}  // namespace octavo::tests
