@@ -13,6 +13,7 @@
 #include <octavo/io/hyper_tree_grid.hpp>
 #include <octavo/io/leaf_list.hpp>
 #include <octavo/io/mfem.hpp>
+#include <octavo/io/oct.hpp>
 #include <octavo/io/openfoam.hpp>
 
 namespace octavo::cli {
@@ -24,17 +25,18 @@ struct Named {
     HexmeshFormat format;
 };
 
-constexpr std::array<Named, 7> formats{{{"abaqus", ".inp", HexmeshFormat::abaqus},
+constexpr std::array<Named, 8> formats{{{"abaqus", ".inp", HexmeshFormat::abaqus},
                                         {"openfoam", "", HexmeshFormat::openfoam},
                                         {"mfem", ".mesh", HexmeshFormat::mfem},
                                         {"gmsh", ".msh", HexmeshFormat::gmsh},
                                         {"leaves", ".csv", HexmeshFormat::leaf_list},
                                         {"vtu", ".vtu", HexmeshFormat::vtu},
-                                        {"htg", ".htg", HexmeshFormat::hyper_tree_grid}}};
+                                        {"htg", ".htg", HexmeshFormat::hyper_tree_grid},
+                                        {"octree", ".oct", HexmeshFormat::octree}}};
 
 bool needs_octants(HexmeshFormat format) {
     return format == HexmeshFormat::openfoam || format == HexmeshFormat::leaf_list ||
-           format == HexmeshFormat::hyper_tree_grid;
+           format == HexmeshFormat::hyper_tree_grid || format == HexmeshFormat::octree;
 }
 
 }  // namespace
@@ -76,6 +78,8 @@ Result<io::WriteReport> write_hexmesh(HexmeshFormat format, const std::string& p
             return io::write_vtu(path, mesh, more, context);
         case HexmeshFormat::hyper_tree_grid:
             return io::write_hyper_tree_grid(path, hexmesh::to_octree(mesh), {}, context);
+        case HexmeshFormat::octree:
+            return io::write_octree(path, hexmesh::to_octree(mesh), context);
     }
     return Error{ErrorCode::internal, "a format without a writer", {}};
 }

@@ -13,12 +13,12 @@
 
 namespace octavo::cli {
 
-enum class HexmeshFormat { abaqus, openfoam, mfem, gmsh, leaf_list, vtu, hyper_tree_grid };
+enum class HexmeshFormat { abaqus, openfoam, mfem, gmsh, leaf_list, vtu, hyper_tree_grid, octree };
 
 inline constexpr const char* hexmesh_outputs =
     "The mesh to write: .inp (Abaqus, CalculiX), .mesh (MFEM), .msh (Gmsh, when nothing hangs), .csv (leaf "
     "list), .vtu "
-    "or .htg (ParaView), or a folder (OpenFOAM case)";
+    "or .htg (ParaView), .oct, or a folder (OpenFOAM case)";
 
 /// `to` is a name of a format, or empty. Errors: unsupported.
 Result<HexmeshFormat> hexmesh_format(const std::string& path, const std::string& to);

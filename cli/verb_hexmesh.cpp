@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cell_values.hpp"
 #include "hexmesh_facts.hpp"
 #include "hexmesh_files.hpp"
 #include "model.hpp"
@@ -16,6 +17,8 @@
 #include <octavo/hexmesh/conforming.hpp>
 #include <octavo/hexmesh/fit.hpp>
 #include <octavo/io/openscad_csg.hpp>
+#include <octavo/render/png.hpp>
+#include <octavo/render/raster.hpp>
 
 // `octavo hexmesh FILE… -o OUT`: solids → a balanced mesh of hexahedra in the files of solvers and viewers.
 
@@ -24,7 +27,8 @@ namespace {
 
 struct HexmeshOptions {
     std::vector<std::string> inputs, sizes, boxes;
-    std::string output, to, balance = "edge", open = "reject", overlaps = "reject", curvature, keep;
+    std::string output, to, balance = "edge", open = "reject", overlaps = "reject", curvature, keep, picture,
+                            values;
     int level = 7, layers = -1;
     double precision = 0, largest = 0, proximity = 0;
     bool conforming = false, fit = false, no_fractions = false, skip_unsupported = false;
@@ -171,20 +175,46 @@ Error in_its_file(Error error, const std::vector<std::string>& inputs) {
     return error;
 }
 
+/// What is known of the cells besides the mesh: numbers that the user brings, and their quality where cells are no cubes.
+struct CellNumbers {
+    std::vector<double> values, quality;
+};
+
+Result<CellNumbers> cell_numbers(Session& session, const HexmeshOptions& options, const mesh::HexMesh& mesh) {
+    CellNumbers numbers;
+    if (options.conforming || options.fit) numbers.quality = hexmesh::scaled_jacobians(mesh);
+    if (options.values.empty()) return numbers;
+    session.inputs.push_back(options.values);
+    Result<std::vector<double>> values = read_cell_values(options.values, mesh.cell_count());
+    if (!values) return std::move(values).error();
+    numbers.values = std::move(*values);
+    return numbers;
+}
+
 Result<io::WriteReport> write(Session& session, const Context& context, HexmeshFormat format,
                               const HexmeshOptions& options, const mesh::HexMesh& mesh,
-                              const std::vector<std::string>& names) {
+                              const std::vector<std::string>& names, const CellNumbers& numbers) {
     if (options.output == "-") session.stdout_taken = true;
-    std::vector<double> quality;
     std::vector<io::CellData> more;
-    if (options.conforming || options.fit) {
-        quality = hexmesh::scaled_jacobians(mesh);
-        more.push_back({"scaled_jacobian", quality});
-    }
+    if (!numbers.quality.empty()) more.push_back({"scaled_jacobian", numbers.quality});
+    if (!numbers.values.empty()) more.push_back({"value", numbers.values});
     Result<io::WriteReport> written = session.timed(
         "write", [&] { return write_hexmesh(format, options.output, mesh, names, context, more); });
     if (written) session.warn(written->warnings);
     return written;
+}
+
+Status draw(Session& session, const Context& context, const HexmeshOptions& options,
+            const mesh::HexMesh& mesh, const CellNumbers& numbers) {
+    constexpr int width = 1200, height = 900;
+    const render::Scene scene = render::scene_of(mesh, render::HexMeshSceneOptions{.values = numbers.values});
+    const Result<render::Camera> camera = render::Camera::look_at(scene.bounds(), {}, width, height);
+    if (!camera) return camera.error();
+    const Result<render::Image> image = session.timed("draw", [&] {
+        return render::draw(scene, *camera, {.width = width, .height = height, .line_width = 0.8}, context);
+    });
+    if (!image) return image.error();
+    return render::write_png(options.picture, *image);
 }
 
 Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
@@ -215,11 +245,21 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
         add_fit(session, *fitted);
     }
     if (options.conforming || options.fit) add_quality(session, hexmesh::measure_quality(built->mesh));
+    const Result<CellNumbers> numbers = cell_numbers(session, options, built->mesh);
+    if (!numbers) return numbers.error();
     if (!options.output.empty()) {
-        Result<io::WriteReport> written = write(session, context, *format, options, built->mesh, names);
+        Result<io::WriteReport> written =
+            write(session, context, *format, options, built->mesh, names, *numbers);
         if (!written) return std::move(written).error();
     }
+    if (!options.picture.empty())
+        if (const Status drawn = draw(session, context, options, built->mesh, *numbers); !drawn)
+            return drawn.error();
     return ExitCode::ok;
+}
+
+std::string check_picture(const std::string& path) {
+    return std::filesystem::path(path).extension() == ".png" ? "" : "pictures are written as .png";
 }
 
 template <class Parse>
@@ -300,6 +340,12 @@ void add_hexmesh(Program& program) {
         ->type_name("POLICY");
     verb->add_flag("--skip-unsupported", options->skip_unsupported,
                    "For .csg: leave out text and the like, with warnings");
+    verb->add_option("--picture", options->picture, "A picture of the mesh to draw: .png")
+        ->check(check_picture)
+        ->type_name("FILE");
+    verb->add_option("--values", options->values,
+                     "Numbers for the cells, one line each: they colour the picture and go to a .vtu")
+        ->type_name("FILE");
     verb->add_option("--to", options->to, "Format of the output, instead of by its extension")
         ->type_name("FORMAT");
 }

@@ -35,4 +35,15 @@ octavo shape menger --detail 3 -o "$scratch/sponge.ply"
 octavo intersection "$scratch/sponge.ply" "$scratch/ball.ply" -o "$scratch/cut.ply" \
     --transform "$scratch/ball.ply:1,0,0,0.5,0,1,0,0.5,0,0,1,0.5"
 octavo render "$scratch/cut.ply" -o docs/pictures/boolean.png --azimuth 35 --elevation 25 --edges sharp --size 600x500
+octavo hexmesh "$scratch/housing.ply" --level 6 -o "$scratch/housing-mesh.oct"
+octavo render "$scratch/housing-mesh.oct" -o docs/pictures/housing-hexmesh.png --cut x --size 800x600
+
+# A bracket from OpenSCAD to stresses; the last picture needs CalculiX.
+cp docs/examples/bracket.inp docs/examples/mises.awk "$scratch"
+bracket=(docs/examples/bracket.csg -p 1 --largest 2 --fit)
+octavo hexmesh "${bracket[@]}" -o "$scratch/bracket_mesh.inp" --picture docs/pictures/bracket-mesh.png
+if command -v ccx > /dev/null; then
+    (cd "$scratch" && ccx bracket > bracket.log && awk -f mises.awk bracket.dat > stress.csv)
+    octavo hexmesh "${bracket[@]}" --values "$scratch/stress.csv" --picture docs/pictures/bracket-stress.png
+fi
 ls -sh docs/pictures

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stages of a hexahedral mesh, each beside the peer that does it: p4est balances and numbers the same leaves.
+// Hexahedral meshes beside the peers of each stage: p4est balances the same leaves and numbers their nodes; OpenVDB tells
+// inside from outside on a grid of the same cells.
 //
-//     octavo_hexmesh_peers [MESH]        a closed mesh; without it a generated one
+//     octavo_hexmesh_peers [MESH [LEVEL…]]        a closed mesh; without it a generated one; levels 8, 9 and 10
 //
-// CPU seconds of the process, one thread, best of three; cell counts must agree or the program fails.
+// CPU seconds of the process, one thread, the best of three of Octavo and one run of each peer, as CSV. Cell counts
+// under balance must agree or the program fails.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <sys/resource.h>
-
 #include "hexmesh_peer.hpp"
+#include "octree_peer.hpp"
+#include "peer_clock.hpp"
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/number.hpp>
 #include <octavo/io/read.hpp>
@@ -24,33 +27,104 @@
 namespace {
 
 using namespace octavo;
-
-double cpu_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double peak_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
+using bench::Usage;
 
 template <class Work>
-double best_of_three(const Work& work) {
-    double best = 1e300;
+Usage best_of_three(const Work& work) {
+    Usage best{1e300, 0};
     for (int run = 0; run < 3; ++run) {
-        const double start = cpu_seconds();
+        const bench::Stopwatch watch;
         work();
-        best = std::min(best, cpu_seconds() - start);
+        const Usage usage = watch.stop();
+        // The first run has its memory to itself; later ones find pages that it left.
+        best = {std::min(best.seconds, usage.seconds), std::max(best.megabytes, usage.megabytes)};
     }
     return best;
 }
 
-void print(int level, const char* stage, const char* who, double seconds, std::size_t cells) {
-    std::printf("%5d  %-28s %-8s %8.3f s  %7.2f M cells/s\n", 1 << level, stage, who, seconds,
-                static_cast<double>(cells) / seconds / 1e6);
+void print(int level, const char* stage, const char* who, const Usage& usage, std::size_t cells) {
+    const auto count = static_cast<double>(cells);
+    std::printf("%d,%s,%s,%.3f,%zu,%.2f,%.1f\n", 1 << level, stage, who, usage.seconds, cells,
+                count / usage.seconds / 1e6, usage.megabytes * 1048576 / count);
+    std::fflush(stdout);
+}
+
+hexmesh::Built built_or_exit(const mesh::Mesh& solid, const hexmesh::Options& options) {
+    Context one_thread;
+    one_thread.threads = 1;
+    Result<hexmesh::Built> built = hexmesh::build(std::span(&solid, 1), options, one_thread);
+    if (built) return std::move(*built);
+    std::fprintf(stderr, "%s\n", built.error().describe().c_str());
+    std::exit(EXIT_FAILURE);
+}
+
+/// The whole mesh, with and without the parts of boundary cells.
+void measure_meshes(const mesh::Mesh& solid, int level) {
+    hexmesh::Options options{.level = level};
+    for (const auto fractions : {hexmesh::Fractions::skip, hexmesh::Fractions::compute}) {
+        options.fractions = fractions;
+        hexmesh::Report report;
+        const Usage usage = best_of_three([&] { report = built_or_exit(solid, options).report; });
+        const bool computed = fractions == hexmesh::Fractions::compute;
+        print(level, computed ? "mesh with fractions" : "mesh", "Octavo", usage, report.tree_cells);
+        if (computed)
+            std::printf("# relative error of the filled volume: %.1e\n",
+                        report.solids[0].filled_volume / report.solids[0].exact_volume - 1);
+    }
+}
+
+/// The coarsest tree with the smallest cells of a mesh: what its refinement was before balance, as peers are given it.
+std::vector<octree::CellKey> unbalanced_leaves(const mesh::Mesh& solid, int level) {
+    const hexmesh::Built built = built_or_exit(
+        solid, {.level = level, .keep = hexmesh::Keep::all, .fractions = hexmesh::Fractions::skip});
+    const std::vector<octree::CellKey>& cells = built.mesh.cells;
+    const int deepest = std::max_element(cells.begin(), cells.end(), [](auto a, auto b) {
+                            return a.level() < b.level();
+                        })->level();
+    std::vector<octree::CellKey> fine;
+    for (const octree::CellKey cell : cells)
+        if (cell.level() == deepest && cell.child_index() == 0) fine.push_back(cell);
+    return bench::completed(fine);
+}
+
+/// False when counts differ.
+bool measure_balance_and_nodes(const std::vector<octree::CellKey>& leaves, int level) {
+    bool agree = true;
+    for (const auto& [contact, name] : {std::pair(octree::Contact::face, "balance by face"),
+                                        std::pair(octree::Contact::edge, "balance by edge"),
+                                        std::pair(octree::Contact::corner, "balance by corner")}) {
+        std::vector<octree::CellKey> balanced;
+        print(level, name, "Octavo", best_of_three([&] { balanced = octree::balance(leaves, contact); }),
+              balanced.size());
+        const Usage numbering = best_of_three([&] { static_cast<void>(hexmesh::number_nodes(balanced)); });
+        print(level, "number nodes", "Octavo", numbering, balanced.size());
+        const auto peer = bench::p4est_balance_and_number(leaves, contact);
+        if (!peer) continue;
+        print(level, name, "p4est", {peer->balance_seconds, 0}, peer->cells);
+        if (peer->number_seconds > 0)
+            print(level, "number nodes", "p4est", {peer->number_seconds, 0}, peer->cells);
+        if (peer->cells == balanced.size()) continue;
+        std::printf("# DIFFERENT: Octavo %zu cells, p4est %zu\n", balanced.size(), peer->cells);
+        agree = false;
+    }
+    return agree;
+}
+
+/// A signed distance in a band and the sign everywhere, on cells of the side that the mesh has at the surface.
+void measure_openvdb([[maybe_unused]] const mesh::Mesh& solid, [[maybe_unused]] int level) {
+#ifdef OCTAVO_WITH_OPENVDB
+    const double side =
+        built_or_exit(solid, {.level = level, .fractions = hexmesh::Fractions::skip}).report.smallest_cell;
+    const Box3 bounds = solid.bounds();
+    bench::OctreeJob job;
+    for (const Vec3& v : solid.vertices) {
+        const Vec3 p = (1 / side) * (v - bounds.low);
+        job.vertices.push_back({p.x, p.y, p.z});
+    }
+    for (const mesh::Triangle& t : solid.triangles) job.triangles.push_back({t[0], t[1], t[2]});
+    const bench::OctreeAnswer answer = bench::run_openvdb(job);
+    print(level, "level set of half-width 3", "OpenVDB", answer.usage, answer.leaves);
+#endif
 }
 
 }  // namespace
@@ -65,66 +139,19 @@ int main(int argc, char** argv) {
         }
         solid = std::move(read->mesh);
     }
-    const Context one_thread{.threads = 1, .on_progress = {}};
+    std::vector<int> levels{8, 9, 10};
+    if (argc > 2) {
+        levels.clear();
+        for (int i = 2; i < argc; ++i) levels.push_back(std::atoi(argv[i]));
+    }
     bool agree = true;
-    for (const int level : {8, 9, 10}) {
-        // The universe of a job is up to four times its content, so levels of the tree are counted by cell counts only.
-        hexmesh::Options options{.level = level};
-        for (const auto fractions : {hexmesh::Fractions::skip, hexmesh::Fractions::compute}) {
-            options.fractions = fractions;
-            std::size_t tree_cells = 0;
-            double error = 0;
-            const double seconds = best_of_three([&] {
-                const Result<hexmesh::Built> built =
-                    hexmesh::build(std::span(&solid, 1), options, one_thread);
-                if (!built) std::exit((std::fprintf(stderr, "%s\n", built.error().describe().c_str()), 1));
-                tree_cells = built->report.tree_cells;
-                const hexmesh::SolidReport& report = built->report.solids[0];
-                error = report.filled_volume / report.exact_volume - 1;
-            });
-            const bool computed = fractions == hexmesh::Fractions::compute;
-            print(level, computed ? "whole mesh with fractions" : "whole mesh", "Octavo", seconds,
-                  tree_cells);
-            std::printf("       %zu cells, peak %.1f bytes a cell", tree_cells,
-                        peak_bytes() / static_cast<double>(tree_cells));
-            std::printf(computed ? ", volume off by %.1e\n" : "\n", error);
-        }
-        options.keep = hexmesh::Keep::all;
-        options.fractions = hexmesh::Fractions::skip;
-        options.balance = octree::Contact::corner;
-        const Result<hexmesh::Built> built = hexmesh::build(std::span(&solid, 1), options, one_thread);
-        if (!built) return EXIT_FAILURE;
-        // The unbalanced tree: only the smallest cells, and what must be split for them.
-        std::vector<octree::CellKey> leaves;
-        const std::vector<octree::CellKey>& cells = built->mesh.cells;
-        const int deepest = std::max_element(cells.begin(), cells.end(), [](auto a, auto b) {
-                                return a.level() < b.level();
-                            })->level();
-        std::vector<octree::CellKey> fine;
-        for (const octree::CellKey cell : cells)
-            if (cell.level() == deepest && cell.child_index() == 0) fine.push_back(cell);
-        leaves = bench::completed(fine);
-        for (const auto contact : {octree::Contact::face, octree::Contact::edge, octree::Contact::corner}) {
-            std::vector<octree::CellKey> balanced;
-            const double seconds = best_of_three([&] { balanced = octree::balance(leaves, contact); });
-            const char* const name = contact == octree::Contact::face   ? "balance by face"
-                                     : contact == octree::Contact::edge ? "balance by edge"
-                                                                        : "balance by corner";
-            print(level, name, "Octavo", seconds, balanced.size());
-            const double numbering =
-                best_of_three([&] { static_cast<void>(hexmesh::number_nodes(balanced)); });
-            print(level, "number nodes", "Octavo", numbering, balanced.size());
-            if (const auto peer = bench::p4est_balance_and_number(leaves, contact)) {
-                print(level, name, "p4est", peer->balance_seconds, peer->cells);
-                if (peer->number_seconds > 0)
-                    print(level, "number nodes", "p4est", peer->number_seconds, peer->cells);
-                if (peer->cells != balanced.size()) {
-                    std::printf("       DIFFERENT: Octavo %zu cells, p4est %zu\n", balanced.size(),
-                                peer->cells);
-                    agree = false;
-                }
-            }
-        }
+    std::printf("# %s: %zu triangles, one thread, CPU seconds; cells of the octree, those outside included\n",
+                argc > 1 ? argv[1] : "generated", solid.triangles.size());
+    std::printf("resolution,stage,system,cpu_s,cells,million_cells_per_s,peak_bytes_per_cell\n");
+    for (const int level : levels) {
+        measure_meshes(solid, level);
+        agree = measure_balance_and_nodes(unbalanced_leaves(solid, level), level) && agree;
+        measure_openvdb(solid, level);
     }
     return agree ? EXIT_SUCCESS : EXIT_FAILURE;
 }

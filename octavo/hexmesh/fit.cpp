@@ -55,6 +55,10 @@ std::vector<Hanging> hanging_of(const mesh::HexMesh& mesh) {
     return all;
 }
 
+/// Facets near each other whose normals differ by less belong to one smooth surface; chords of round things do at any
+/// sensible fineness.
+constexpr double smooth_cosine = 0.866;  // 30 degrees
+
 enum class Role : std::uint8_t { fixed, inner, surface, hanging };
 
 class Fitter {
@@ -80,16 +84,20 @@ class Fitter {
     }
 
     /// Where each surface node would like to be before it is drawn to the surface: half way to the mean of its
-    /// neighbours there.
-    std::vector<Vec3> smoothed() const {
+    /// neighbours there; where it is when the surface turns between them, for smoothing would round edges off.
+    std::vector<Vec3> smoothed(const std::vector<query::Closest>& nearest) const {
         std::vector<Vec3> points;
-        for (const NodeIndex node : surface_) {
+        for (std::size_t i = 0; i < surface_.size(); ++i) {
             Vec3 sum;
-            double count = 0;
-            for (const std::uint32_t next : neighbours_[node])
-                if (role_[next] == Role::surface) sum = sum + mesh_.positions[next], ++count;
-            const Vec3 at = mesh_.positions[node];
-            points.push_back(count > 0 ? 0.5 * at + (0.5 / count) * sum : at);
+            double count = 0, least_cosine = 1;
+            for (const std::uint32_t next : neighbours_[surface_[i]]) {
+                if (role_[next] != Role::surface) continue;
+                sum = sum + mesh_.positions[next], ++count;
+                least_cosine = std::min(least_cosine, dot(nearest[i].normal, nearest[place_[next]].normal));
+            }
+            const Vec3 at = mesh_.positions[surface_[i]];
+            const bool is_smooth = count > 0 && least_cosine > smooth_cosine;
+            points.push_back(is_smooth ? 0.5 * at + (0.5 / count) * sum : at);
         }
         return points;
     }
@@ -144,8 +152,12 @@ class Fitter {
             for (const std::uint32_t cell : cells)
                 if (materials.of(mesh_, cell) != materials.of(mesh_, cells[0])) mark(node);
         }
+        place_.resize(mesh_.node_count());
         for (NodeIndex node = 0; node < mesh_.node_count(); ++node)
-            if (role_[node] == Role::surface) surface_.push_back(node);
+            if (role_[node] == Role::surface) {
+                place_[node] = static_cast<std::uint32_t>(surface_.size());
+                surface_.push_back(node);
+            }
     }
 
     void find_layers() {
@@ -205,6 +217,7 @@ class Fitter {
         dependents_;  ///< per node; cells include those of hanging nodes that depend on it
     std::vector<Role> role_;
     std::vector<NodeIndex> surface_, inner_;
+    std::vector<std::uint32_t> place_;  ///< of surface nodes in `surface_`
     std::vector<double> quality_, changed_;
 };
 
@@ -263,8 +276,8 @@ Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, c
         fitter.smooth_inside();
         context.report("fit", static_cast<double>(round + 1) / (options.rounds + 1));
         // The last rounds only draw nearer.
-        answers =
-            (*closest)(round + 3 < options.rounds ? fitter.smoothed() : fitter.surface_positions(), context);
+        answers = (*closest)(
+            round + 3 < options.rounds ? fitter.smoothed(answers) : fitter.surface_positions(), context);
     }
     if (context.cancelled()) return Context::cancelled_error();
     const Distances after = distances_of((*closest)(fitter.surface_positions(), context), small);

@@ -15,7 +15,8 @@
 // Idea: rounds of small moves, each of which is taken back unless every cell that it changes stays good. A node on
 // the boundary wants to be at the point of the surface nearest to the mean of its neighbours on the boundary; a node a
 // few layers inside wants to be in the middle of its neighbours. It moves there, or half the way, a quarter, an eighth.
-// Hanging nodes follow their masters, so that constraints stay what they were.
+// Hanging nodes follow their masters, so that constraints stay what they were. Where the surface turns by more than 30
+// degrees between a node and its neighbours, the node goes to the surface without smoothing, which would round edges off.
 //
 // Guaranteed: no cell gets a scaled Jacobian below `least_quality` (or below what it had, if that was less), and the
 // map of every cell that was positive everywhere stays so: quality.hpp proves it for every move. Whatever the

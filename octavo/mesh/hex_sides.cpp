@@ -37,36 +37,6 @@ bool have_same_corners(std::array<NodeIndex, 4> a, std::array<NodeIndex, 4> b) {
     return a == b;
 }
 
-/// The sides that only one cell has.
-std::vector<HexSide> unshared_sides(const HexMesh& mesh) {
-    std::vector<Entry> entries;
-    entries.reserve(6 * mesh.cell_count());
-    for (CellIndex cell = 0; cell < mesh.cell_count(); ++cell)
-        for (std::uint32_t side = 0; side < 6; ++side)
-            entries.push_back({diagonal_of(side_of(mesh, cell, side).corners), cell, side});
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-        return a.diagonal != b.diagonal ? a.diagonal < b.diagonal : a.cell < b.cell;
-    });
-    std::vector<HexSide> alone;
-    for (std::size_t i = 0, end = 0; i < entries.size(); i = end) {
-        while (end < entries.size() && entries[end].diagonal == entries[i].diagonal) ++end;
-        // One or two; more only where sides that differ have a diagonal in common.
-        for (std::size_t k = i; k < end; ++k) {
-            const HexSide side = side_of(mesh, entries[k].cell, entries[k].side);
-            bool shared = false;
-            for (std::size_t other = i; other < end && !shared; ++other)
-                shared = other != k &&
-                         have_same_corners(side.corners,
-                                           side_of(mesh, entries[other].cell, entries[other].side).corners);
-            if (!shared) alone.push_back(side);
-        }
-    }
-    std::sort(alone.begin(), alone.end(), [](const HexSide& a, const HexSide& b) {
-        return a.cell != b.cell ? a.cell < b.cell : a.side < b.side;
-    });
-    return alone;
-}
-
 /// Pairs of nodes that name the sides between cells of two sizes.
 struct Joints {
     std::vector<std::uint64_t> larger;  ///< both diagonals of each larger side
@@ -110,6 +80,35 @@ struct Joints {
 };
 
 }  // namespace
+
+std::vector<HexSide> unshared_sides(const HexMesh& mesh) {
+    std::vector<Entry> entries;
+    entries.reserve(6 * mesh.cell_count());
+    for (CellIndex cell = 0; cell < mesh.cell_count(); ++cell)
+        for (std::uint32_t side = 0; side < 6; ++side)
+            entries.push_back({diagonal_of(side_of(mesh, cell, side).corners), cell, side});
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return a.diagonal != b.diagonal ? a.diagonal < b.diagonal : a.cell < b.cell;
+    });
+    std::vector<HexSide> alone;
+    for (std::size_t i = 0, end = 0; i < entries.size(); i = end) {
+        while (end < entries.size() && entries[end].diagonal == entries[i].diagonal) ++end;
+        // One or two; more only where sides that differ have a diagonal in common.
+        for (std::size_t k = i; k < end; ++k) {
+            const HexSide side = side_of(mesh, entries[k].cell, entries[k].side);
+            bool shared = false;
+            for (std::size_t other = i; other < end && !shared; ++other)
+                shared = other != k &&
+                         have_same_corners(side.corners,
+                                           side_of(mesh, entries[other].cell, entries[other].side).corners);
+            if (!shared) alone.push_back(side);
+        }
+    }
+    std::sort(alone.begin(), alone.end(), [](const HexSide& a, const HexSide& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.side < b.side;
+    });
+    return alone;
+}
 
 BoundarySides boundary_sides(const HexMesh& mesh) {
     const Joints joints(mesh);

@@ -33,6 +33,9 @@ struct BoundarySides {
 inline constexpr std::array<std::array<std::uint8_t, 4>, 6> corners_of_side{
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
+/// Sides whose four corners only one cell has, by cell: the boundary, and both sides of joints between cells of two sizes.
+std::vector<HexSide> unshared_sides(const HexMesh& mesh);
+
 BoundarySides boundary_sides(const HexMesh& mesh);
 
 }  // namespace octavo::mesh

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <octavo/base/vec3.hpp>
+#include <octavo/mesh/hex_mesh.hpp>
 #include <octavo/mesh/mesh.hpp>
 #include <octavo/octree/octree.hpp>
 #include <octavo/render/image.hpp>
@@ -54,5 +56,15 @@ struct OctreeSceneOptions {
 
 /// The walls of the black and gray leaves that a viewer can see: those towards a white leaf, the cut or the outside.
 Scene scene_of(const octree::Octree& tree, const OctreeSceneOptions& options = {});
+
+struct HexMeshSceneOptions {
+    /// A number for each cell, shown from blue (the least) to red (the greatest); without them cells have the colours
+    /// of their solids.
+    std::span<const double> values = {};
+    EdgeLines edges = EdgeLines::all;  ///< `none` leaves out the cells' outlines
+};
+
+/// The sides of cells on the boundary of a mesh of hexahedra.
+Scene scene_of(const mesh::HexMesh& mesh, const HexMeshSceneOptions& options = {});
 
 }  // namespace octavo::render

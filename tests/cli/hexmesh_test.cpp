@@ -79,6 +79,32 @@ TEST_F(Hexmesh, FitsAndReportsQuality) {
     EXPECT_NE(octavo("hexmesh gear.ply --level 4 --fit").out.find("scaled Jacobian"), std::string::npos);
 }
 
+TEST_F(Hexmesh, GoesFromOpenscadToAPictureOfStresses) {
+    // The worked example of docs/methods/hexmesh.md, coarser.
+    const std::string examples = std::string(source_folder) + "/docs/examples/";
+    for (const char* file : {"bracket.csg", "bracket.inp", "mises.awk"})
+        std::filesystem::copy_file(examples + file, path(file));
+    const std::string mesh = "hexmesh bracket.csg -p 4 --fit ";
+    const Ran meshed = octavo(mesh + "-o bracket_mesh.inp --json");
+    ASSERT_EQ(meshed.exit_code, 0) << meshed.err;
+    const Ran solved = shell(
+        "command -v ccx > /dev/null || exit 77; OMP_NUM_THREADS=1 ccx bracket > log 2>&1 && awk -f "
+        "mises.awk bracket.dat > stress.csv");
+    if (solved.exit_code == 77) GTEST_SKIP() << "CalculiX (ccx) is not installed";
+    ASSERT_EQ(solved.exit_code, 0) << read("log");
+    const Ran drawn = octavo(mesh + "--values stress.csv --picture stress.png -o stress.vtu");
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_EQ(read("stress.png").substr(1, 3), "PNG");
+    EXPECT_NE(read("stress.vtu").find("Name=\"value\""), std::string::npos);
+    write("short.csv", "1\n2\n");
+    EXPECT_EQ(octavo(mesh + "--values short.csv --picture no.png").exit_code, 3);
+    write("words.csv", "stress\nhigh\n");
+    const Ran words = octavo(mesh + "--values words.csv --picture no.png");
+    EXPECT_EQ(words.exit_code, 3);
+    EXPECT_NE(words.err.find("words.csv:2"), std::string::npos) << words.err;
+    EXPECT_EQ(octavo(mesh + "--picture mesh.jpg").exit_code, 2);
+}
+
 TEST_F(Hexmesh, RefusesBadUsageAndBadDataWithThePlace) {
     ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
     for (const char* arguments :

@@ -64,6 +64,26 @@ TEST(Fit, KeepsEveryCellValidOnThinAndSharpParts) {
     }
 }
 
+TEST(Fit, LeavesABoxOnTheGridAsItIs) {
+    const mesh::Mesh box = mesh::box({0, 0, 0}, {3, 2, 1});
+    Result<Built> built = build(std::span(&box, 1), {.precision = 0.25, .largest = 0.25, .keep = Keep::half});
+    ASSERT_TRUE(built);
+    const Result<FitReport> report = fit(built->mesh, std::span(&box, 1));
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->nodes_on_surface, report->boundary_nodes);
+    Box3 bounds;
+    double volume = 0;
+    for (mesh::CellIndex cell = 0; cell < built->mesh.cell_count(); ++cell) {
+        const CellCorners corners = corners_of(built->mesh, cell);
+        for (const Vec3& p : corners) bounds.add(p);
+        volume += dot(corners[1] - corners[0], cross(corners[2] - corners[0], corners[4] - corners[0]));
+    }
+    EXPECT_NEAR(volume, 6, 0.01);
+    EXPECT_EQ(bounds.low, (Vec3{0, 0, 0}));
+    EXPECT_EQ(bounds.high, (Vec3{3, 2, 1}));
+    expect_valid(built->mesh, 0.9);
+}
+
 TEST(Fit, DrawsInterfacesOntoTheirSurface) {
     // A ball in a ball: the nodes between the two materials go to the inner sphere.
     const std::vector<mesh::Mesh> solids{mesh::icosphere(1, 12), mesh::icosphere(0.5, 12)};
