@@ -94,8 +94,8 @@ bool measure_balance_and_nodes(const std::vector<octree::CellKey>& leaves, int l
                                         std::pair(octree::Contact::edge, "balance by edge"),
                                         std::pair(octree::Contact::corner, "balance by corner")}) {
         std::vector<octree::CellKey> balanced;
-        print(level, name, "Octavo", best_of_three([&] { balanced = octree::balance(leaves, contact); }),
-              balanced.size());
+        const Usage balancing = best_of_three([&] { balanced = octree::balance(leaves, contact); });
+        print(level, name, "Octavo", balancing, balanced.size());
         const Usage numbering = best_of_three([&] { static_cast<void>(hexmesh::number_nodes(balanced)); });
         print(level, "number nodes", "Octavo", numbering, balanced.size());
         const auto peer = bench::p4est_balance_and_number(leaves, contact);
