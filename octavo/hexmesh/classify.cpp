@@ -82,7 +82,7 @@ class CellOutput {
     Result<ClassifiedCells> take() &&;
 
   private:
-    void note_overlap(const LocalSolid& local, std::span<const std::uint32_t> list);
+    void note_overlap(const Cell& cell, const LocalSolid& local, std::span<const std::uint32_t> list);
 
     const SolidsProblem* problem_;
     SetTable sets_;
@@ -252,7 +252,7 @@ void CellOutput::leaf(const Cell& cell, const octree::Restricted<SolidsInCell>& 
         if (!local.touched && winding == 1) continue;
         const std::span<const std::uint32_t> list =
             workspace.lists[local.solid].list(cell.level, local.range);
-        if (winding != 0 && winding != 1) note_overlap(local, list);
+        if (winding != 0 && winding != 1) note_overlap(cell, local, list);
         if (local.touched && problem_->computes_fractions())
             cells_.fractions.push_back(filled_part(problem_->facets(local.solid), list, cell, winding));
     }
@@ -262,11 +262,30 @@ void CellOutput::leaf(const Cell& cell, const octree::Restricted<SolidsInCell>& 
     cells_.set_of_cell.push_back(static_cast<std::uint16_t>(number));
 }
 
-void CellOutput::note_overlap(const LocalSolid& local, std::span<const std::uint32_t> list) {
-    if (!cells_.overlap.empty() || list.empty()) return;
+/// The facet whose box is nearest to the cell: where walls between cells hold all facets, no cell has a list.
+std::uint32_t nearest_facet(std::span<const classic::Facet> facets, const Cell& cell) {
+    std::size_t nearest = 0;
+    std::int64_t least = std::int64_t{1} << 62;
+    const exact::Point high = cell.high();
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+        std::int64_t distance = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            distance = std::max<std::int64_t>({distance, facets[i].low[k] - std::int64_t{high[axis]},
+                                               cell.low[axis] - std::int64_t{facets[i].high[k]}});
+        }
+        if (distance < least) least = distance, nearest = i;
+    }
+    return facets[nearest].source;
+}
+
+void CellOutput::note_overlap(const Cell& cell, const LocalSolid& local,
+                              std::span<const std::uint32_t> list) {
+    if (!cells_.overlap.empty()) return;
     constexpr std::size_t enough = 4;
     for (std::size_t i = 0; i < std::min(list.size(), enough); ++i)
         cells_.overlap.push_back(problem_->facets(local.solid)[list[i]].source);
+    if (list.empty()) cells_.overlap.push_back(nearest_facet(problem_->facets(local.solid), cell));
     cells_.overlapping_solid = local.solid;
 }
 

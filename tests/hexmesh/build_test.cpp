@@ -263,6 +263,14 @@ TEST(Build, RefusesWhatIsNoSolidAndNamesFacets) {
     EXPECT_TRUE(accepted->report.overlaps);
 }
 
+TEST(Build, SeesOverlapsWhoseWallsLieOnTheGrid) {
+    const Mesh doubled = joined(mesh::box({0, 0, 0}, {2, 2, 2}), mesh::box({1, 0, 0}, {3, 2, 2}));
+    const Result<Built> refused = build(std::span(&doubled, 1), {.precision = 1});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::not_a_solid);
+    EXPECT_FALSE(refused.error().place.faces.empty());
+}
+
 TEST(Build, SaysWhereAHoleIsAndRefusesWhatEnclosesNothing) {
     Mesh open = mesh::box({0, 0, 0}, {1, 2, 3});
     open.triangles.pop_back();
