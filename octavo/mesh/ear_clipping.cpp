@@ -67,13 +67,13 @@ void EarClipping::start(CornerRing& ring) {
 }
 
 std::uint32_t EarClipping::column(double x) const {
-    const double c = (x - grid_low_.x) * columns_per_x_;
-    return c <= 0 ? 0 : std::min(static_cast<std::uint32_t>(std::min(c, 1e9)), columns_ - 1);
+    const double c = (x - grid_low_.x) * columns_per_x_;  // no number in a grid without width
+    return c > 0 ? std::min(static_cast<std::uint32_t>(std::min(c, 1e9)), columns_ - 1) : 0;
 }
 
 std::uint32_t EarClipping::row(double y) const {
     const double r = (y - grid_low_.y) * rows_per_y_;
-    return r <= 0 ? 0 : std::min(static_cast<std::uint32_t>(std::min(r, 1e9)), rows_ - 1);
+    return r > 0 ? std::min(static_cast<std::uint32_t>(std::min(r, 1e9)), rows_ - 1) : 0;
 }
 
 void EarClipping::build_grid() {
