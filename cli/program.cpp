@@ -89,6 +89,7 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     add_repair(*this);
     add_convert(*this);
     add_boolean(*this);
+    add_eval(*this);
     add_mill(*this);
     add_shape(*this);
     add_octree(*this);

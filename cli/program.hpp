@@ -48,6 +48,7 @@ void add_distance(Program& program);
 void add_render(Program& program);
 void add_shape(Program& program);
 void add_boolean(Program& program);
+void add_eval(Program& program);
 void add_hexmesh(Program& program);
 void add_mill(Program& program);
 void add_completion(Program& program);

@@ -3,12 +3,10 @@
 #include <cmath>
 #include <optional>
 
-#include <fmt/format.h>
-
+#include "boolean_facts.hpp"
 #include "model.hpp"
 #include "program.hpp"
 #include <octavo/boolean/evaluate.hpp>
-#include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/transform.hpp>
 
 // `octavo union A B … -o OUT`, `intersection`, `difference` and `xor`: exact set operations on any number of meshes,
@@ -19,7 +17,7 @@ namespace {
 
 struct BooleanOptions {
     std::vector<std::string> operands, transforms;
-    std::string output, format, simplify = "coplanar";
+    BooleanOutput output;
 };
 
 using Operation = Result<boolean::Evaluated> (*)(std::span<const mesh::Mesh>, const boolean::Options&,
@@ -83,45 +81,17 @@ Result<std::vector<mesh::Mesh>> read_operands(Session& session, const Context& c
     return operands;
 }
 
-void tell(Session& session, const boolean::Evaluated& evaluated, const std::string& output) {
-    const mesh::Measures measures = mesh::measure(evaluated.mesh);
-    const boolean::Report& report = evaluated.report;
-    session.warn(report.warnings);
-    session.result = {{"triangles", evaluated.mesh.triangles.size()},
-                      {"vertices", evaluated.mesh.vertices.size()},
-                      {"volume", measures.volume},
-                      {"area", measures.area},
-                      {"closed", report.closed},
-                      {"manifold", report.manifold},
-                      {"exact_fallbacks", report.exact_fallbacks},
-                      {"operands", report.operands},
-                      {"input_triangles", report.input_triangles},
-                      {"cut_facets", report.cut_facets},
-                      {"largest_displacement", report.largest_displacement},
-                      {"largest_rounding", report.largest_rounding},
-                      {"inverted_facets", report.inverted_facets}};
-    session.text = fmt::format("{}: {} triangles, volume {}, area {}\n", output,
-                               grouped(evaluated.mesh.triangles.size()), number_text(measures.volume),
-                               number_text(measures.area));
-}
-
 Result<ExitCode> evaluate(Session& session, const BooleanOptions& options, Operation operation) {
     const Context context = session.context();
-    const Result<std::string> format =
-        settle_output(session, options.operands, options.output, options.format, mesh_outputs());
+    const Result<std::string> format = settle_output(session, options.operands, options.output.output,
+                                                     options.output.format, mesh_outputs());
     if (!format) return format.error();
     Result<std::vector<mesh::Mesh>> operands = read_operands(session, context, options);
     if (!operands) return std::move(operands).error();
-    boolean::Options evaluating;
-    evaluating.simplify = options.simplify == "none" ? boolean::Simplify::none : boolean::Simplify::coplanar;
     Result<boolean::Evaluated> evaluated =
-        session.timed("evaluate", [&] { return operation(*operands, evaluating, context); });
+        session.timed("evaluate", [&] { return operation(*operands, options.output.evaluation(), context); });
     if (!evaluated) return std::move(evaluated).error();
-    Result<io::WriteReport> written =
-        write_mesh(session, context, options.output, evaluated->mesh, {.format = *format});
-    if (!written) return std::move(written).error();
-    tell(session, *evaluated, options.output);
-    return ExitCode::ok;
+    return write_boolean(session, context, *evaluated, options.output.output, *format);
 }
 
 void add_operation(Program& program, const char* name, const char* summary, Operation operation) {
@@ -130,20 +100,11 @@ void add_operation(Program& program, const char* name, const char* summary, Oper
         return evaluate(session, *options, operation);
     });
     verb->add_option("FILES", options->operands, "Closed meshes, two or more")->required()->type_name("FILE");
-    verb->add_option("-o,--output", options->output,
-                     "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")
-        ->required()
-        ->type_name("FILE");
     verb->add_option("--transform", options->transforms,
                      "FILE:m0,m1,…: moves an operand by a matrix of 12 or 16 numbers, row-major")
         ->check(check_transform)
         ->type_name("FILE:MATRIX");
-    take_one_of(
-        verb->add_option("--simplify", options->simplify,
-                         "What happens to cut facets in one plane: coplanar merges, none leaves them"),
-        {"none", "coplanar"});
-    verb->add_option("--to", options->format, "Format of the output, instead of by its extension")
-        ->type_name("FORMAT");
+    add_boolean_options(verb, options->output);
 }
 
 }  // namespace

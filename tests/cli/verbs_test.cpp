@@ -106,6 +106,39 @@ TEST_F(Verbs, SetOperationsRefuseOpenOperandsNamingFacets) {
     EXPECT_EQ(octavo("union a.stl a.stl --transform b.stl:1 -o out.ply").exit_code, 2);
 }
 
+TEST_F(Verbs, EvalTakesExpressionsOfNamesAndCsgFiles) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o a.stl").exit_code, 0);
+    ASSERT_EQ(octavo("shape cube --size 1 -o b.stl").exit_code, 0);
+    const Ran ran = octavo("eval '(big - small) | small & big' big=a.stl small=b.stl -o out.ply --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.json()["result"]["volume"], 8.0);
+    EXPECT_EQ(octavo("eval 'a -' a=a.stl -o out.ply").exit_code, 2);
+    EXPECT_EQ(octavo("eval 'a - b' a=a.stl -o out.ply").exit_code, 2);
+    EXPECT_EQ(octavo("eval 'a' a=a.stl b=b.stl -o out.ply").exit_code, 2);
+    EXPECT_EQ(octavo("eval 'a' a.stl -o out.ply").exit_code, 2);
+
+    write("plate.csg",
+          "difference() {\n  cube(size = [4, 4, 1], center = false);\n"
+          "  multmatrix([[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, -1], [0, 0, 0, 1]]) {\n"
+          "    cube(size = [2, 2, 3], center = false);\n  }\n}\n");
+    const Ran plate = octavo("eval plate.csg -o plate.ply --json");
+    ASSERT_EQ(plate.exit_code, 0) << plate.err;
+    EXPECT_NEAR(plate.json()["result"]["volume"].get<double>(), 12.0, 1e-9);
+    EXPECT_EQ(octavo("check plate.ply").exit_code, 0);
+    EXPECT_EQ(octavo("eval plate.csg a=a.stl -o plate.ply").exit_code, 2);
+    write("bad.csg", "cube(size = [4, 4, 1]");
+    EXPECT_EQ(octavo("eval bad.csg -o out.ply --json").json()["error"]["code"], "bad_input");
+}
+
+TEST_F(Verbs, SetOperationsCloseOpenOperandsWhenAsked) {
+    write("open.off", open_cube);
+    const Ran ran = octavo("union open.off --open winding -o out.ply --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_GT(ran.json()["result"]["closing_facets"], 0);
+    EXPECT_EQ(ran.json()["warnings"].size(), 1U);
+    EXPECT_EQ(octavo("check out.ply").exit_code, 0);
+}
+
 TEST_F(Verbs, OctreeBoundsTheVolumeAndStatsReadsItBack) {
     ASSERT_EQ(octavo("shape sphere --detail 20 -o ball.ply").exit_code, 0);
     const json volume = octavo("info ball.ply --json").json()["result"]["volume"];

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "output.hpp"
+#include "session.hpp"
+#include <octavo/boolean/evaluate.hpp>
+
+// What the verbs of exact set operations have in common: options, writing the result, and what they tell about it.
+
+namespace octavo::cli {
+
+struct BooleanOutput {
+    std::string output, format, simplify = "coplanar", open = "reject";
+
+    boolean::Options evaluation() const;
+};
+
+void add_boolean_options(CLI::App* verb, BooleanOutput& options);
+
+/// Writes the result in the settled format and puts its facts into the session.
+Result<ExitCode> write_boolean(Session& session, const Context& context, const boolean::Evaluated& evaluated,
+                               const std::string& output, const std::string& format);
+
+}  // namespace octavo::cli
