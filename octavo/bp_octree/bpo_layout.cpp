@@ -3,8 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include <zlib.h>
-
+#include <octavo/base/checksum.hpp>
 #include <octavo/bp_octree/bpo_layout.hpp>
 #include <octavo/io/bytes.hpp>
 
@@ -47,22 +46,10 @@ Error damaged(std::string sentence, std::uint64_t byte) {
     return error;
 }
 
+// Of head and levels.
 constexpr std::size_t checksum_at = 12;
 
-/// The checksum of head and levels, with its own place taken as zero.
-std::uint32_t head_checksum(std::span<const std::uint8_t> bytes) {
-    uLong crc = crc32_z(0, bytes.data(), checksum_at);
-    constexpr std::array<std::uint8_t, 4> zeros{};
-    crc = crc32_z(crc, zeros.data(), zeros.size());
-    return static_cast<std::uint32_t>(
-        crc32_z(crc, bytes.data() + checksum_at + 4, bytes.size() - checksum_at - 4));
-}
-
 }  // namespace
-
-std::uint32_t crc32_of(std::span<const std::uint8_t> bytes) {
-    return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
-}
 
 void put_head(const BpoHead& head, std::span<const LevelFigures> levels, std::vector<std::uint8_t>& out) {
     Writer writer(out);
@@ -78,7 +65,7 @@ void put_head(const BpoHead& head, std::span<const LevelFigures> levels, std::ve
     while (out.size() < BpoHead::size) writer << std::uint8_t{0};
     for (const LevelFigures& level : levels)
         writer << level.split << level.gray << level.white << level.black << level.planes << level.volume;
-    const std::uint32_t checksum = head_checksum(out);
+    const std::uint32_t checksum = crc32_around(out, checksum_at);
     io::store(reinterpret_cast<std::byte*>(&out[checksum_at]), checksum);
 }
 
@@ -123,7 +110,7 @@ Result<HeadAndLevels> get_head(std::span<const std::uint8_t> bytes) {
     if (head.levels < 1 || head.levels > max_depth + 1)
         return damaged("the number of levels is not 1 to 19", 76);
     if (bytes.size() < head.index_at()) return damaged("it ends within its table of levels", bytes.size());
-    if (checksum != head_checksum(bytes.first(head.index_at())))
+    if (checksum != crc32_around(bytes.first(head.index_at()), checksum_at))
         return damaged("the checksum of its head is wrong", 12);
     if (flags > 1) return damaged("a reserved flag is set", 16);
     head.solid_volume = reader.get<double>();

@@ -64,8 +64,6 @@ inline constexpr std::size_t page_head = 16;
 inline constexpr std::size_t entries_a_page = (page_size - page_head) / ChunkEntry::size_in_file;
 static_assert(page_head + entries_a_page * ChunkEntry::size_in_file == page_size);
 
-std::uint32_t crc32_of(std::span<const std::uint8_t> bytes);
-
 void put_head(const BpoHead& head, std::span<const LevelFigures> levels, std::vector<std::uint8_t>& out);
 void put_index(std::span<const ChunkEntry> entries, std::vector<std::uint8_t>& out);
 

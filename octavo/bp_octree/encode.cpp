@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include <octavo/base/checksum.hpp>
 #include <octavo/bp_octree/bit_stream.hpp>
 #include <octavo/bp_octree/bpo_format.hpp>
 #include <octavo/bp_octree/bpo_layout.hpp>

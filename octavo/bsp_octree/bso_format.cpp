@@ -4,6 +4,8 @@
 #include <bit>
 #include <string>
 
+#include <octavo/base/checksum.hpp>
+#include <octavo/base/little_endian.hpp>
 #include <octavo/bp_octree/bit_stream.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
 #include <octavo/exact/orient.hpp>
@@ -24,38 +26,6 @@ constexpr std::size_t version_at = 8, exponent_at = 12, checksum_at = 16, depth_
 
 // Nodes of the octree, two bits each.
 constexpr std::uint32_t white = 0, black = 1, split = 2, bsp_leaf = 3;
-
-template <class Integer>
-void put(std::uint8_t* at, Integer value) {
-    for (std::size_t i = 0; i < sizeof(Integer); ++i)
-        at[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i));
-}
-
-template <class Integer>
-Integer get(const std::uint8_t* at) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) value |= static_cast<std::uint64_t>(at[i]) << (8 * i);
-    return static_cast<Integer>(value);
-}
-
-/// CRC-32 as in zlib, over the whole file with its own four bytes taken as zero.
-std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
-    static const std::array<std::uint32_t, 256> table = [] {
-        std::array<std::uint32_t, 256> made{};
-        for (std::uint32_t i = 0; i < 256; ++i) {
-            made[i] = i;
-            for (int bit = 0; bit < 8; ++bit)
-                made[i] = made[i] & 1 ? made[i] >> 1 ^ 0xEDB88320U : made[i] >> 1;
-        }
-        return made;
-    }();
-    std::uint32_t crc = 0xFFFFFFFFU;
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-        const std::uint8_t byte = i >= checksum_at && i < checksum_at + 4 ? 0 : bytes[i];
-        crc = crc >> 8 ^ table[(crc ^ byte) & 0xFF];
-    }
-    return ~crc;
-}
 
 /// References to a table in the order of first use, in Elias' gamma code: 0 is the next new entry, n the entry that was
 /// first used n entries ago.
@@ -107,18 +77,18 @@ class Encoder {
         for (const mesh::VertexIndex point : weld.index) points.put(tables, point);
         std::vector<std::uint8_t> bytes(header_bytes, 0);
         std::copy(magic.begin(), magic.end(), bytes.begin());
-        bsp_octree::put(&bytes[version_at], version);
-        bsp_octree::put(&bytes[exponent_at], static_cast<std::int32_t>(octree.lattice().exponent()));
-        bsp_octree::put(&bytes[depth_at], static_cast<std::uint32_t>(octree.options().depth));
+        octavo::put(&bytes[version_at], version);
+        octavo::put(&bytes[exponent_at], static_cast<std::int32_t>(octree.lattice().exponent()));
+        octavo::put(&bytes[depth_at], static_cast<std::uint32_t>(octree.options().depth));
         for (std::size_t axis = 0; axis < 3; ++axis)
-            bsp_octree::put(&bytes[origin_at + 8 * axis], octree.lattice().origin()[axis]);
-        bsp_octree::put(&bytes[points_at], static_cast<std::uint32_t>(weld.kept.size()));
-        bsp_octree::put(&bytes[planes_at], static_cast<std::uint32_t>(order_.size()));
-        bsp_octree::put(&bytes[leaf_planes_at], octree.options().planes);
-        bsp_octree::put(&bytes[stop_at], static_cast<std::uint32_t>(octree.options().stop));
+            octavo::put(&bytes[origin_at + 8 * axis], octree.lattice().origin()[axis]);
+        octavo::put(&bytes[points_at], static_cast<std::uint32_t>(weld.kept.size()));
+        octavo::put(&bytes[planes_at], static_cast<std::uint32_t>(order_.size()));
+        octavo::put(&bytes[leaf_planes_at], octree.options().planes);
+        octavo::put(&bytes[stop_at], static_cast<std::uint32_t>(octree.options().stop));
         for (const std::vector<std::uint8_t>& part : {std::move(tables).take(), std::move(bits_).take()})
             bytes.insert(bytes.end(), part.begin(), part.end());
-        bsp_octree::put(&bytes[checksum_at], checksum(bytes));
+        octavo::put(&bytes[checksum_at], crc32_around(bytes, checksum_at));
         return bytes;
     }
 
@@ -305,7 +275,7 @@ Result<BspOctree> decode(std::span<const std::uint8_t> bytes) {
         error.code = ErrorCode::unsupported;
         return error;
     }
-    if (get<std::uint32_t>(&bytes[checksum_at]) != checksum(bytes))
+    if (get<std::uint32_t>(&bytes[checksum_at]) != crc32_around(bytes, checksum_at))
         return refuse("the .bso file is damaged: its checksum does not agree", checksum_at);
     const auto depth = get<std::uint32_t>(&bytes[depth_at]),
                leaf_planes = get<std::uint32_t>(&bytes[leaf_planes_at]),

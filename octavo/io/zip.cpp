@@ -5,6 +5,7 @@
 
 #include <zlib.h>
 
+#include <octavo/base/checksum.hpp>
 #include <octavo/io/text_scanner.hpp>
 #include <octavo/io/zip.hpp>
 
@@ -119,11 +120,7 @@ std::string deflated_text(std::string_view content) {
 }
 
 std::uint32_t checksum_of(Bytes bytes) {
-    uLong checksum = crc32(0, nullptr, 0);
-    for (std::size_t at = 0; at < bytes.size(); at += zlib_step)
-        checksum = crc32(checksum, zlib_bytes(bytes.data() + at),
-                         static_cast<uInt>(std::min(zlib_step, bytes.size() - at)));
-    return static_cast<std::uint32_t>(checksum);
+    return crc32_of({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace

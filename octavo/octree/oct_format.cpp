@@ -4,6 +4,8 @@
 #include <cstring>
 #include <string>
 
+#include <octavo/base/checksum.hpp>
+#include <octavo/base/little_endian.hpp>
 #include <octavo/octree/oct_format.hpp>
 
 namespace octavo::octree {
@@ -16,40 +18,6 @@ constexpr std::uint32_t version = 1;
 // Byte offsets of the header's fields; all integers are little-endian.
 constexpr std::size_t version_at = 8, depth_at = 12, exponent_at = 16, checksum_at = 20, origin_at = 24,
                       nodes_at = 48, reserved_at = 56, header_bytes = 64;
-
-template <class Integer>
-void put(std::uint8_t* at, Integer value) {
-    for (std::size_t i = 0; i < sizeof(Integer); ++i)
-        at[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i));
-}
-
-template <class Integer>
-Integer get(const std::uint8_t* at) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) value |= static_cast<std::uint64_t>(at[i]) << (8 * i);
-    return static_cast<Integer>(value);
-}
-
-constexpr std::array<std::uint32_t, 256> make_crc_table() {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-        std::uint32_t value = i;
-        for (int bit = 0; bit < 8; ++bit) value = value & 1 ? value >> 1 ^ 0xEDB88320U : value >> 1;
-        table[i] = value;
-    }
-    return table;
-}
-
-// CRC-32 as in zlib and PNG, over the whole file with its own four bytes taken as zero.
-std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
-    static constexpr std::array<std::uint32_t, 256> table = make_crc_table();
-    std::uint32_t crc = 0xFFFFFFFFU;
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-        const std::uint8_t byte = i >= checksum_at && i < checksum_at + 4 ? 0 : bytes[i];
-        crc = crc >> 8 ^ table[(crc ^ byte) & 0xFF];
-    }
-    return ~crc;
-}
 
 Error refuse(std::string sentence, std::size_t byte) {
     Error error{ErrorCode::bad_input, std::move(sentence), {}};
@@ -85,7 +53,7 @@ std::vector<std::uint8_t> encode(const Octree& octree) {
         const std::size_t offset = i - header_bytes;
         bytes[i] = static_cast<std::uint8_t>(code.words()[offset / 8] >> (8 * (offset % 8)));
     }
-    put(&bytes[checksum_at], checksum(bytes));
+    put(&bytes[checksum_at], crc32_around(bytes, checksum_at));
     return bytes;
 }
 
@@ -107,7 +75,7 @@ Result<Octree> decode(std::span<const std::uint8_t> bytes) {
         return refuse("the .oct file claims " + std::to_string(nodes) + " nodes but holds " +
                           std::to_string(code_bytes) + " bytes of them, four to a byte",
                       nodes_at);
-    if (get<std::uint32_t>(&bytes[checksum_at]) != checksum(bytes))
+    if (get<std::uint32_t>(&bytes[checksum_at]) != crc32_around(bytes, checksum_at))
         return refuse("the .oct file is damaged: its checksum does not agree", checksum_at);
     if (get<std::uint64_t>(&bytes[reserved_at]) != 0)
         return refuse("the reserved bytes of the .oct header are not zero", reserved_at);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <octavo/base/checksum.hpp>
 #include <octavo/bp_octree/bpo_layout.hpp>
 
 namespace octavo::tests {
@@ -24,7 +25,7 @@ inline void sign_bpo(std::vector<std::uint8_t>& bytes) {
                       index = bp_octree::BpoHead::size + levels * bp_octree::BpoHead::level_size;
     if (index > bytes.size()) return;
     put(12, 0);
-    put(12, bp_octree::crc32_of(std::span(bytes).first(index)));
+    put(12, crc32_of(std::span(bytes).first(index)));
     const std::size_t chunks = get(136);
     for (std::size_t page = 0; page * bp_octree::entries_a_page < chunks; ++page) {
         const std::size_t at = index + page * bp_octree::page_size;
@@ -34,9 +35,9 @@ inline void sign_bpo(std::vector<std::uint8_t>& bytes) {
             const std::size_t entry = at + bp_octree::page_head + i * bp_octree::ChunkEntry::size_in_file;
             const std::size_t offset = get(entry), size = get(entry + 8);
             if (offset + size <= bytes.size())
-                put(entry + 12, bp_octree::crc32_of(std::span(bytes).subspan(offset, size)));
+                put(entry + 12, crc32_of(std::span(bytes).subspan(offset, size)));
         }
-        put(at, bp_octree::crc32_of(std::span(bytes).subspan(at + 4, bp_octree::page_size - 4)));
+        put(at, crc32_of(std::span(bytes).subspan(at + 4, bp_octree::page_size - 4)));
     }
 }
 
