@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <octavo/mesh/measure.hpp>
+
 #include "model.hpp"
 #include "option_checks.hpp"
-#include <octavo/mesh/measure.hpp>
 
 namespace octavo::cli {
 namespace {

@@ -5,9 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <octavo/boolean/evaluate.hpp>
+
 #include "output.hpp"
 #include "session.hpp"
-#include <octavo/boolean/evaluate.hpp>
 
 // What the verbs of exact set operations have in common: options, writing the result, and what they tell about it.
 

@@ -3,8 +3,9 @@
 
 #include <span>
 
-#include "session.hpp"
 #include <octavo/bp_octree/bp_octree.hpp>
+
+#include "session.hpp"
 
 // What `build` and `stats` tell about a BP-octree: the same keys, the same table.
 

@@ -3,8 +3,9 @@
 
 #include <cstdint>
 
-#include "session.hpp"
 #include <octavo/bsp_octree/bsp_octree.hpp>
+
+#include "session.hpp"
 
 // What `bsp` and `stats` say about a BSP-octree.
 

@@ -4,10 +4,11 @@
 #include <span>
 #include <string>
 
-#include "session.hpp"
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/fit.hpp>
 #include <octavo/hexmesh/quality.hpp>
+
+#include "session.hpp"
 
 // What `hexmesh` tells about a mesh.
 

@@ -3,16 +3,17 @@
 
 #include <string>
 
-#include "number_text.hpp"
-#include "option_checks.hpp"
-#include "output.hpp"
-#include "session.hpp"
 #include <octavo/bp_octree/bpo_file.hpp>
 #include <octavo/io/openscad_csg.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/io/write.hpp>
 #include <octavo/mesh/snap.hpp>
 #include <octavo/octree/octree.hpp>
+
+#include "number_text.hpp"
+#include "option_checks.hpp"
+#include "output.hpp"
+#include "session.hpp"
 
 // What nearly every verb does first and last: read the model that the command line names and write what came of it.
 // Both are timed, and their warnings are passed on. Inputs are remembered for `--json`.

@@ -3,8 +3,9 @@
 
 #include <string>
 
-#include "session.hpp"
 #include <octavo/octree/octree.hpp>
+
+#include "session.hpp"
 
 // What `octree`, `stats` and `info` tell about a classic octree: the same keys, the same table.
 

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "model.hpp"
-#include "program.hpp"
 #include <octavo/classic/closed_surface.hpp>
 #include <octavo/io/columns.hpp>
+
+#include "model.hpp"
+#include "program.hpp"
 
 // What `contains` and `distance` share: a model, points, and columns of answers, one row a point.
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "session.hpp"
 #include <octavo/mesh/report.hpp>
+
+#include "session.hpp"
 
 // A validity report in the words of `--json`.
 

@@ -10,10 +10,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "exit_code.hpp"
-#include "progress_bar.hpp"
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
+
+#include "exit_code.hpp"
+#include "progress_bar.hpp"
 
 // One run of the program: the options that every verb has, what the verb found, and how both are told. Data goes to
 // stdout and messages to stderr; with --json, stdout carries exactly one object whatever happens, so data cannot go

@@ -3,11 +3,12 @@
 #include <cmath>
 #include <optional>
 
+#include <octavo/boolean/evaluate.hpp>
+#include <octavo/mesh/transform.hpp>
+
 #include "boolean_facts.hpp"
 #include "model.hpp"
 #include "program.hpp"
-#include <octavo/boolean/evaluate.hpp>
-#include <octavo/mesh/transform.hpp>
 
 // `octavo union A B … -o OUT`, `intersection`, `difference` and `xor`: exact set operations on any number of meshes,
 // in one pass.

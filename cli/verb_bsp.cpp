@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include "bsp_octree_facts.hpp"
-#include "model.hpp"
-#include "program.hpp"
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
 #include <octavo/bsp_octree/build.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
+
+#include "bsp_octree_facts.hpp"
+#include "model.hpp"
+#include "program.hpp"
 
 // `octavo bsp FILE -o OUT.bso`: the BSP-octree of a solid, exactly; and from a .bso file back to a mesh.
 

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <octavo/bp_octree/build.hpp>
+#include <octavo/bp_octree/certify.hpp>
+
 #include "bp_octree_facts.hpp"
 #include "model.hpp"
 #include "option_checks.hpp"
 #include "program.hpp"
-#include <octavo/bp_octree/build.hpp>
-#include <octavo/bp_octree/certify.hpp>
 
 // `octavo build FILE -o OUT.bpo`: the BP-octree of a solid, nested convex envelopes from coarse to fine.
 

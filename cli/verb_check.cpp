@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <octavo/mesh/validate.hpp>
+
 #include "model.hpp"
 #include "program.hpp"
 #include "report_facts.hpp"
-#include <octavo/mesh/validate.hpp>
 
 // `octavo check FILE`: is it a solid, and if not, what is wrong and at which facets. Exit code 1 when it is not.
 

@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "point_query.hpp"
 #include <octavo/octree/linear_octree.hpp>
 #include <octavo/query/inside.hpp>
 #include <octavo/query/stored_inside.hpp>
+
+#include "point_query.hpp"
 
 // `octavo contains MODEL POINTS`: on which side of the solid each point lies; −1 inside, 0 on, +1 outside. Of an octree
 // the colour of the point's cell decides, and 0 means a gray cell: not decided at that depth.

@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <octavo/bp_octree/to_mesh.hpp>
+
 #include "model.hpp"
 #include "program.hpp"
-#include <octavo/bp_octree/to_mesh.hpp>
 
 // `octavo convert IN OUT`: from one format to another, without changing the geometry. A CSG tree becomes the mesh that
 // it evaluates to, an octree the boundary of its black cells, or another form of itself, a BP-octree its exact triangles

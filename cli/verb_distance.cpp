@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "point_query.hpp"
 #include <octavo/query/closest.hpp>
 #include <octavo/query/envelope_distance.hpp>
+
+#include "point_query.hpp"
 
 // `octavo distance MODEL POINTS`: for each point its signed distance from the surface, negative inside, and the nearest
 // point and triangle of the surface.

@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "boolean_facts.hpp"
-#include "model.hpp"
-#include "program.hpp"
 #include <octavo/boolean/expression.hpp>
 #include <octavo/boolean/formula.hpp>
 #include <octavo/io/openscad_csg.hpp>
+
+#include "boolean_facts.hpp"
+#include "model.hpp"
+#include "program.hpp"
 
 // `octavo eval "(body | lid) - bore" body=b.stl lid=l.stl bore=c.ply -o OUT` and `octavo eval MODEL.csg -o OUT`: a whole
 // expression in one pass.

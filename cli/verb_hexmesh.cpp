@@ -5,13 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "cell_values.hpp"
-#include "hexmesh_facts.hpp"
-#include "hexmesh_files.hpp"
-#include "model.hpp"
-#include "numbers.hpp"
-#include "option_checks.hpp"
-#include "program.hpp"
 #include <octavo/boolean/expression.hpp>
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/conforming.hpp>
@@ -19,6 +12,14 @@
 #include <octavo/io/openscad_csg.hpp>
 #include <octavo/render/png.hpp>
 #include <octavo/render/raster.hpp>
+
+#include "cell_values.hpp"
+#include "hexmesh_facts.hpp"
+#include "hexmesh_files.hpp"
+#include "model.hpp"
+#include "numbers.hpp"
+#include "option_checks.hpp"
+#include "program.hpp"
 
 // `octavo hexmesh FILE… -o OUT`: solids → a balanced mesh of hexahedra in the files of solvers and viewers.
 

@@ -6,9 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "model.hpp"
-#include "octree_facts.hpp"
-#include "program.hpp"
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/classic/moments.hpp>
 #include <octavo/mesh/measure.hpp>
@@ -16,6 +13,10 @@
 #include <octavo/mesh/weld.hpp>
 #include <octavo/octree/cell.hpp>
 #include <octavo/octree/oct_format.hpp>
+
+#include "model.hpp"
+#include "octree_facts.hpp"
+#include "program.hpp"
 
 // `octavo info FILE`: the facts about a model. Whether it is a solid is `check`'s business.
 //

@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "model.hpp"
-#include "program.hpp"
 #include <octavo/bsp_octree/mill.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/io/poses.hpp>
+
+#include "model.hpp"
+#include "program.hpp"
 
 // `octavo mill WORK --tool T --path poses.csv -o OUT`: thousands of exact subtractions of a tool, one after the other,
 // each at the cost of what it touches.

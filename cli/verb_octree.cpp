@@ -4,13 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <octavo/classic/csg_build.hpp>
+#include <octavo/classic/from_mesh.hpp>
+#include <octavo/octree/oct_format.hpp>
+
 #include "model.hpp"
 #include "octree_facts.hpp"
 #include "option_checks.hpp"
 #include "program.hpp"
-#include <octavo/classic/csg_build.hpp>
-#include <octavo/classic/from_mesh.hpp>
-#include <octavo/octree/oct_format.hpp>
 
 // `octavo octree FILE -o OUT.oct`: the exact octree of a solid. The output's extension decides the form: .oct is
 // Octavo's own, .vtu and .htg are for ParaView.

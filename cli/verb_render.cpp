@@ -5,10 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "model.hpp"
-#include "program.hpp"
 #include <octavo/render/png.hpp>
 #include <octavo/render/raster.hpp>
+
+#include "model.hpp"
+#include "program.hpp"
 
 // `octavo render MODEL -o OUT.png`: a picture of a mesh or of an octree's cells, shaded, with feature lines, from any
 // side, whole or cut open.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <octavo/mesh/repair.hpp>
+#include <octavo/mesh/validate.hpp>
+
 #include "model.hpp"
 #include "program.hpp"
 #include "report_facts.hpp"
-#include <octavo/mesh/repair.hpp>
-#include <octavo/mesh/validate.hpp>
 
 // `octavo repair IN -o OUT`: mends what can be mended without guessing, lists what it did and what is left.
 

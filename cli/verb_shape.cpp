@@ -5,12 +5,13 @@
 
 #include <fmt/format.h>
 
+#include <octavo/mesh/shapes.hpp>
+#include <octavo/mesh/transform.hpp>
+
 #include "model.hpp"
 #include "option_checks.hpp"
 #include "program.hpp"
 #include "suggestion.hpp"
-#include <octavo/mesh/shapes.hpp>
-#include <octavo/mesh/transform.hpp>
 
 // `octavo shape NAME -o OUT`: a generated solid, to try things on and to make test cases from.
 

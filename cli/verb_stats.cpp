@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <octavo/bsp_octree/bso_file.hpp>
+#include <octavo/bsp_octree/bso_format.hpp>
+#include <octavo/octree/oct_format.hpp>
+
 #include "bp_octree_facts.hpp"
 #include "bsp_octree_facts.hpp"
 #include "model.hpp"
 #include "octree_facts.hpp"
 #include "program.hpp"
-#include <octavo/bsp_octree/bso_file.hpp>
-#include <octavo/bsp_octree/bso_format.hpp>
-#include <octavo/octree/oct_format.hpp>
 
 // `octavo stats FILE`: what is inside a file that Octavo built (.oct, .bpo, .bso).
 

@@ -15,14 +15,15 @@
 #include <utility>
 #include <vector>
 
-#include "hexmesh_peer.hpp"
-#include "octree_peer.hpp"
-#include "peer_clock.hpp"
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/number.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/octree/balance.hpp>
+
+#include "hexmesh_peer.hpp"
+#include "octree_peer.hpp"
+#include "peer_clock.hpp"
 
 namespace {
 

@@ -8,12 +8,13 @@
 
 #include <tbb/global_control.h>
 
-#include "octree_peer.hpp"
 #include <octavo/classic/from_mesh.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/snap.hpp>
 #include <octavo/octree/linear_octree.hpp>
 #include <octavo/octree/oct_format.hpp>
+
+#include "octree_peer.hpp"
 
 // Mesh → octree with inside and outside, on one thread: Octavo against OpenVDB and CGAL, at the same cells of the same
 // universe. Prints CPU time, peak memory and ratios as CSV, and whether the answers agree.

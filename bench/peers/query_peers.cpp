@@ -9,12 +9,13 @@
 
 #include <tbb/global_control.h>
 
-#include "../wavy_sphere.hpp"
-#include "query_peer.hpp"
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/measure.hpp>
 #include <octavo/query/closest.hpp>
 #include <octavo/query/inside.hpp>
+
+#include "../wavy_sphere.hpp"
+#include "query_peer.hpp"
 
 // Inside and distance on one thread: Octavo against Embree and CGAL, on the same points in the same process. Prints
 // CPU nanoseconds a point, build times and memory as CSV, and how many answers differ from Octavo's.

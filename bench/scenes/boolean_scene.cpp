@@ -9,11 +9,12 @@
 
 #include <sys/resource.h>
 
-#include "../peers/peak_memory.hpp"
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/exact/counters.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/io/write.hpp>
+
+#include "../peers/peak_memory.hpp"
 
 // One set operation on mesh files, timed from arrays in memory to an indexed mesh in memory, as a line of JSON.
 //   octavo_boolean_scene [--repeat N] [--threads N] [--simplify none] [--output FILE]

@@ -3,13 +3,14 @@
 #include <cstdlib>
 #include <string>
 
-#include "../peers/peer_clock.hpp"
-#include "../wavy_sphere.hpp"
 #include <octavo/bp_octree/bpo_format.hpp>
 #include <octavo/bp_octree/build.hpp>
 #include <octavo/bp_octree/certify.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/snap.hpp>
+
+#include "../peers/peer_clock.hpp"
+#include "../wavy_sphere.hpp"
 
 // The BP-octree of a model: time and memory of building it, and of each level its planes, its volume as a percentage
 // of the solid's, and the bytes of the file up to it.

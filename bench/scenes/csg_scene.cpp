@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "csg_random.hpp"
 #include <octavo/classic/csg_build.hpp>
 #include <octavo/octree/octree.hpp>
+
+#include "csg_random.hpp"
 
 // The comparison of the source: the classic method against the top-down one, on random scenes that fill space.
 // Usage: octavo_csg_scene [MOST_PRIMITIVES [FIRST_DEPTH LAST_DEPTH]]. Prints a CSV table; one thread, CPU time,

@@ -5,8 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "solids.hpp"
 #include <octavo/boolean/evaluate.hpp>
+
+#include "solids.hpp"
 
 namespace octavo::boolean {
 namespace {

@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "solids.hpp"
 #include <octavo/boolean/expression.hpp>
 #include <octavo/mesh/transform.hpp>
+
+#include "solids.hpp"
 
 namespace octavo::boolean {
 namespace {

@@ -5,14 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include "bp_octree/sign_bpo.hpp"
-#include "bp_octree/solids.hpp"
 #include <octavo/bp_octree/bit_stream.hpp>
 #include <octavo/bp_octree/bpo_format.hpp>
 #include <octavo/bp_octree/bpo_layout.hpp>
 #include <octavo/bp_octree/build.hpp>
 #include <octavo/bp_octree/certify.hpp>
 #include <octavo/bp_octree/geometry_codec.hpp>
+
+#include "bp_octree/sign_bpo.hpp"
+#include "bp_octree/solids.hpp"
 
 namespace octavo::bp_octree {
 namespace {

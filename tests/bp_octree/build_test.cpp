@@ -4,12 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "bp_octree/rational.hpp"
-#include "bp_octree/solids.hpp"
-#include "models.hpp"
 #include <octavo/bp_octree/build.hpp>
 #include <octavo/bp_octree/cell_split.hpp>
 #include <octavo/bp_octree/certify.hpp>
+
+#include "bp_octree/rational.hpp"
+#include "bp_octree/solids.hpp"
+#include "models.hpp"
 
 namespace octavo::bp_octree {
 namespace {

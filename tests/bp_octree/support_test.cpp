@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "bp_octree/rational.hpp"
 #include <octavo/bp_octree/plane.hpp>
 #include <octavo/bp_octree/support.hpp>
+
+#include "bp_octree/rational.hpp"
 
 namespace octavo::bp_octree {
 namespace {

@@ -4,11 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "bp_octree/solids.hpp"
 #include <octavo/bp_octree/build.hpp>
 #include <octavo/bp_octree/certify.hpp>
 #include <octavo/bp_octree/to_mesh.hpp>
 #include <octavo/mesh/measure.hpp>
+
+#include "bp_octree/solids.hpp"
 
 namespace octavo::bp_octree {
 namespace {

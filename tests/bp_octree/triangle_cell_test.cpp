@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bp_octree/rational.hpp"
 #include <octavo/bp_octree/triangle_cell.hpp>
+
+#include "bp_octree/rational.hpp"
 
 namespace octavo::bp_octree {
 namespace {

@@ -4,11 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "boolean/solids.hpp"
 #include <octavo/bsp/boundary.hpp>
 #include <octavo/bsp/build.hpp>
 #include <octavo/bsp/classify.hpp>
 #include <octavo/bsp/clip.hpp>
+
+#include "boolean/solids.hpp"
 
 namespace octavo::bsp {
 namespace {

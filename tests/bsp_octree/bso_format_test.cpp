@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <random>
 
-#include "bsp_octree/solid_cases.hpp"
-#include "io/folder.hpp"
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
 #include <octavo/mesh/shapes.hpp>
+
+#include "bsp_octree/solid_cases.hpp"
+#include "io/folder.hpp"
 
 namespace octavo::bsp_octree {
 namespace {

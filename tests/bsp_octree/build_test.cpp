@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <random>
 
-#include "bsp_octree/solid_cases.hpp"
-#include "models.hpp"
 #include <octavo/bsp_octree/borders.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/mesh/snap.hpp>
 #include <octavo/mesh/transform.hpp>
 #include <octavo/query/inside.hpp>
+
+#include "bsp_octree/solid_cases.hpp"
+#include "models.hpp"
 
 namespace octavo::bsp_octree {
 namespace {

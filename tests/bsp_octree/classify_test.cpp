@@ -4,8 +4,9 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "bsp_octree/solid_cases.hpp"
 #include <octavo/mesh/shapes.hpp>
+
+#include "bsp_octree/solid_cases.hpp"
 
 namespace octavo::bsp_octree {
 namespace {

@@ -2,11 +2,12 @@
 #include <atomic>
 #include <cmath>
 
-#include "bsp_octree/solid_cases.hpp"
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/bsp_octree/mill.hpp>
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/mesh/transform.hpp>
+
+#include "bsp_octree/solid_cases.hpp"
 
 namespace octavo::bsp_octree {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <random>
 
-#include "bsp_octree/solid_cases.hpp"
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/mesh/shapes.hpp>
+
+#include "bsp_octree/solid_cases.hpp"
 
 namespace octavo::bsp_octree {
 namespace {

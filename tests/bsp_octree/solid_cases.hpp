@@ -5,10 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "boolean/solids.hpp"
 #include <octavo/bsp_octree/build.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/mesh/measure.hpp>
+
+#include "boolean/solids.hpp"
 
 // Solids for the tests of BSP-octrees, on one lattice with room for all of them, and what is always true of one.
 

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/random_solids.hpp"
 #include <octavo/classic/csg_build.hpp>
 #include <octavo/classic/csg_by_primitive.hpp>
 #include <octavo/classic/csg_descent.hpp>
 #include <octavo/octree/linear_octree.hpp>
+
+#include "csg/random_solids.hpp"
 
 namespace octavo::classic {
 namespace {

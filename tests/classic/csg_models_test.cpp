@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "models.hpp"
 #include <octavo/classic/csg_build.hpp>
 #include <octavo/io/openscad_csg.hpp>
+
+#include "models.hpp"
 
 // Real OpenSCAD trees: the volume that OpenSCAD 2021.01 (CGAL) computed must lie between the lower and the upper
 // volume of the faceted octree at every depth, and the gap must halve with each level.

@@ -7,10 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/random_solids.hpp"
 #include <octavo/classic/csg_build.hpp>
 #include <octavo/classic/set_operations.hpp>
 #include <octavo/classic/to_mesh.hpp>
+
+#include "csg/random_solids.hpp"
 
 namespace octavo::classic {
 namespace {

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "random_solids.hpp"
 #include <octavo/csg/normal_form.hpp>
+
+#include "random_solids.hpp"
 
 namespace octavo::csg {
 namespace {

@@ -5,11 +5,12 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
-#include "random_solids.hpp"
 #include <octavo/csg/brick.hpp>
 #include <octavo/csg/brick_sides.hpp>
 #include <octavo/csg/point_sides.hpp>
 #include <octavo/csg/prune.hpp>
+
+#include "random_solids.hpp"
 
 // The sides of points and cells that SIMD lanes in single precision say, against rationals.
 

@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <octavo/exact/compare.hpp>
+
 #include "exact/generator.hpp"
 #include "exact/oracle.hpp"
-#include <octavo/exact/compare.hpp>
 
 namespace octavo::exact {
 namespace {

@@ -5,8 +5,9 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
-#include "exact/generator.hpp"
 #include <octavo/exact/lattice.hpp>
+
+#include "exact/generator.hpp"
 
 namespace octavo::exact {
 namespace {

@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "exact/generator.hpp"
-#include "exact/oracle.hpp"
 #include <octavo/exact/linear_form.hpp>
 #include <octavo/exact/side.hpp>
+
+#include "exact/generator.hpp"
+#include "exact/oracle.hpp"
 
 namespace octavo::exact {
 namespace {

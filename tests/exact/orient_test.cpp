@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "exact/generator.hpp"
-#include "exact/oracle.hpp"
 #include <octavo/exact/orient.hpp>
 #include <octavo/exact/orient_in_plane.hpp>
+
+#include "exact/generator.hpp"
+#include "exact/oracle.hpp"
 
 namespace octavo::exact {
 namespace {

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "exact/generator.hpp"
-#include "exact/oracle.hpp"
 #include <octavo/exact/orient.hpp>
 #include <octavo/exact/plane.hpp>
 #include <octavo/exact/side.hpp>
+
+#include "exact/generator.hpp"
+#include "exact/oracle.hpp"
 
 namespace octavo::exact {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <octavo/exact/side.hpp>
+
 #include "exact/generator.hpp"
 #include "exact/oracle.hpp"
-#include <octavo/exact/side.hpp>
 
 namespace octavo::exact {
 namespace {

@@ -3,12 +3,13 @@
 #include <span>
 #include <vector>
 
-#include "../bp_octree/sign_bpo.hpp"
 #include <octavo/base/check.hpp>
 #include <octavo/bp_octree/bpo_format.hpp>
 #include <octavo/bp_octree/certify.hpp>
 #include <octavo/bp_octree/figures.hpp>
 #include <octavo/bp_octree/to_mesh.hpp>
+
+#include "../bp_octree/sign_bpo.hpp"
 
 // Any bytes are refused with a sentence or are a tree that can be walked, drawn, certified or refuted, and written again.
 // They are tried as they are and with all checksums put right, which random changes never do.

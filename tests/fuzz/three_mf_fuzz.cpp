@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
-#include "round_trip.hpp"
 #include <octavo/io/output.hpp>
 #include <octavo/io/zip.hpp>
+
+#include "round_trip.hpp"
 
 // The bytes are tried as the whole archive, and as the XML of the model inside a sound one: mutations that keep
 // checksums right are too rare to reach the XML otherwise.

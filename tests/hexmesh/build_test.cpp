@@ -10,10 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include "models.hpp"
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/shapes.hpp>
+
+#include "models.hpp"
 
 namespace octavo::hexmesh {
 namespace {

@@ -15,13 +15,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "hexmesh/folder.hpp"
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/to_polyhedra.hpp>
 #include <octavo/io/abaqus.hpp>
 #include <octavo/io/leaf_list.hpp>
 #include <octavo/io/openfoam.hpp>
 #include <octavo/mesh/shapes.hpp>
+
+#include "hexmesh/folder.hpp"
 
 namespace octavo::hexmesh {
 namespace {

@@ -5,8 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "hexmesh/trees.hpp"
 #include <octavo/hexmesh/number.hpp>
+
+#include "hexmesh/trees.hpp"
 
 namespace octavo::hexmesh {
 namespace {

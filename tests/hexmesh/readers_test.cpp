@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "hexmesh/folder.hpp"
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/conforming.hpp>
 #include <octavo/hexmesh/to_octree.hpp>
@@ -17,6 +16,8 @@
 #include <octavo/io/mfem.hpp>
 #include <octavo/mesh/hex_sides.hpp>
 #include <octavo/mesh/shapes.hpp>
+
+#include "hexmesh/folder.hpp"
 
 // Files of hexahedral meshes, read again by programs that are not ours: meshio for Abaqus, Gmsh and VTU, MFEM itself
 // (PyMFEM) for its format. Tests skip where a reader is not installed; OCTAVO_PYTHON names a Python that has them.

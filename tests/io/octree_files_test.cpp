@@ -9,11 +9,12 @@
 #include <pugixml.hpp>
 #include <zlib.h>
 
-#include "folder.hpp"
-#include "from_text.hpp"
 #include <octavo/io/hyper_tree_grid.hpp>
 #include <octavo/io/oct.hpp>
 #include <octavo/io/vtu.hpp>
+
+#include "folder.hpp"
+#include "from_text.hpp"
 
 namespace octavo::io {
 namespace {

@@ -2,8 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "from_text.hpp"
 #include <octavo/io/ply.hpp>
+
+#include "from_text.hpp"
 
 namespace octavo::io {
 namespace {

@@ -2,9 +2,10 @@
 #include <cmath>
 #include <limits>
 
-#include "from_text.hpp"
 #include <octavo/io/columns.hpp>
 #include <octavo/io/points.hpp>
+
+#include "from_text.hpp"
 
 namespace octavo::io {
 namespace {

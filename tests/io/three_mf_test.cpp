@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "from_text.hpp"
 #include <octavo/io/zip.hpp>
+
+#include "from_text.hpp"
 
 namespace octavo::io {
 namespace {

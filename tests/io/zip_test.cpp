@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "from_text.hpp"
 #include <octavo/io/zip.hpp>
+
+#include "from_text.hpp"
 
 namespace octavo::io {
 namespace {

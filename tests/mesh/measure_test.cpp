@@ -6,10 +6,11 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
-#include "surfaces.hpp"
 #include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/snap.hpp>
 #include <octavo/mesh/transform.hpp>
+
+#include "surfaces.hpp"
 
 namespace octavo::mesh {
 namespace {

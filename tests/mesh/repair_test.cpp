@@ -5,13 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models.hpp"
-#include "surfaces.hpp"
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/repair.hpp>
 #include <octavo/mesh/transform.hpp>
 #include <octavo/mesh/validate.hpp>
+
+#include "models.hpp"
+#include "surfaces.hpp"
 
 namespace octavo::mesh {
 namespace {

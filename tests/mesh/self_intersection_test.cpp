@@ -5,12 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include "surfaces.hpp"
 #include <octavo/mesh/facet_pair.hpp>
 #include <octavo/mesh/self_intersection.hpp>
 #include <octavo/mesh/snap.hpp>
 #include <octavo/mesh/transform.hpp>
 #include <octavo/mesh/weld.hpp>
+
+#include "surfaces.hpp"
 
 namespace octavo::mesh {
 namespace {

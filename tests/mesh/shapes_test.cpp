@@ -5,10 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "surfaces.hpp"
 #include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/mesh/weld.hpp>
+
+#include "surfaces.hpp"
 
 namespace octavo::mesh {
 namespace {

@@ -5,10 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "surfaces.hpp"
 #include <octavo/mesh/topology.hpp>
 #include <octavo/mesh/transform.hpp>
 #include <octavo/mesh/weld.hpp>
+
+#include "surfaces.hpp"
 
 namespace octavo::mesh {
 namespace {

@@ -5,10 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "surfaces.hpp"
 #include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/transform.hpp>
 #include <octavo/mesh/validate.hpp>
+
+#include "surfaces.hpp"
 
 namespace octavo::mesh {
 namespace {

@@ -5,9 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <octavo/query/closest.hpp>
+
 #include "bp_octree/rational.hpp"
 #include "bp_octree/solids.hpp"
-#include <octavo/query/closest.hpp>
 
 namespace octavo::query {
 namespace {

@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "bp_octree/solids.hpp"
 #include <octavo/bp_octree/build.hpp>
 #include <octavo/query/envelope_distance.hpp>
+
+#include "bp_octree/solids.hpp"
 
 namespace octavo::query {
 namespace {

@@ -7,10 +7,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "bp_octree/solids.hpp"
 #include <octavo/bp_octree/bpo_file.hpp>
 #include <octavo/bp_octree/build.hpp>
 #include <octavo/query/stored_inside.hpp>
+
+#include "bp_octree/solids.hpp"
 
 namespace octavo::query {
 namespace {
