@@ -64,17 +64,18 @@ Json json_of(const hexmesh::Built& built, std::span<const std::string> names) {
 std::string text_of(const hexmesh::Built& built, std::span<const std::string> names) {
     const hexmesh::Report& report = built.report;
     std::string text =
-        fmt::format("{} cells from {:.6g} to {:.6g}, {} nodes, {} of them hang\n",
-                    grouped(built.mesh.cell_count()), report.smallest_cell, report.largest_cell,
+        fmt::format("{} cells from {} to {}, {} nodes, {} of them hang\n", grouped(built.mesh.cell_count()),
+                    number_text(report.smallest_cell), number_text(report.largest_cell),
                     grouped(built.mesh.node_count()), grouped(built.mesh.hanging_nodes()));
     const bool exact = has_fractions(built);
     for (std::size_t i = 0; i < report.solids.size(); ++i) {
         const hexmesh::SolidReport& solid = report.solids[i];
-        text += fmt::format("{}: {} cells inside, {} on the boundary, volume {:.10g}", names[i],
-                            grouped(solid.inside_cells), grouped(solid.boundary_cells), solid.exact_volume);
+        text += fmt::format("{}: {} cells inside, {} on the boundary, volume {}", names[i],
+                            grouped(solid.inside_cells), grouped(solid.boundary_cells),
+                            number_text(solid.exact_volume));
         if (exact && solid.exact_volume != 0)
-            text += fmt::format(", filled but for {:.1e} of it",
-                                std::fabs(solid.filled_volume / solid.exact_volume - 1));
+            text += fmt::format(", filled but for {} of it",
+                                number_text(std::fabs(solid.filled_volume / solid.exact_volume - 1)));
         text += "\n";
     }
     return text;
@@ -87,16 +88,17 @@ void add_quality(Session& session, const hexmesh::Quality& quality) {
                                  {"not_proved_positive", quality.not_proved_positive}};
     std::uint64_t most = 1;
     for (const std::uint64_t count : quality.histogram) most = std::max(most, count);
-    session.text += fmt::format("scaled Jacobian {:.3f} to 1, mean {:.3f}\n", quality.least, quality.mean);
+    session.text += fmt::format("scaled Jacobian at least {}, mean {}\n", number_text(quality.least),
+                                number_text(quality.mean));
     for (std::size_t i = 0; i < quality.histogram.size(); ++i) {
         const auto bar = static_cast<std::size_t>(
             std::ceil(40.0 * static_cast<double>(quality.histogram[i]) / static_cast<double>(most)));
-        session.text += fmt::format("  {:.1f} {:>12} {}\n", 0.1 * static_cast<double>(i),
+        session.text += fmt::format("  {:>3} {:>12} {}\n", number_text(0.1 * static_cast<double>(i)),
                                     grouped(quality.histogram[i]), std::string(bar, '#'));
     }
     if (quality.not_proved_positive > 0)
-        session.warn(
-            fmt::format("{} cells are not proved to be positive everywhere", quality.not_proved_positive));
+        session.warn(grouped(quality.not_proved_positive) +
+                     " cells are not proved to be positive everywhere");
 }
 
 void add_fit(Session& session, const hexmesh::FitReport& report) {
@@ -107,10 +109,10 @@ void add_fit(Session& session, const hexmesh::FitReport& report) {
                              {"mean_distance_before", report.mean_distance_before},
                              {"largest_distance_before", report.largest_distance_before}};
     session.text += fmt::format(
-        "{} of {} boundary nodes are on the surface; distance {:.3g} on average (was {:.3g}), "
-        "{:.3g} at most (was {:.3g})\n",
-        grouped(report.nodes_on_surface), grouped(report.boundary_nodes), report.mean_distance,
-        report.mean_distance_before, report.largest_distance, report.largest_distance_before);
+        "{} of {} boundary nodes are on the surface; distance {} on average (was {}), {} at most (was {})\n",
+        grouped(report.nodes_on_surface), grouped(report.boundary_nodes), number_text(report.mean_distance),
+        number_text(report.mean_distance_before), number_text(report.largest_distance),
+        number_text(report.largest_distance_before));
 }
 
 void warn_about(Session& session, const hexmesh::Report& report, std::span<const std::string> names) {

@@ -1,61 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hexmesh_files.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
 
 #include <octavo/hexmesh/to_octree.hpp>
 #include <octavo/hexmesh/to_polyhedra.hpp>
 #include <octavo/io/abaqus.hpp>
+#include <octavo/io/format.hpp>
 #include <octavo/io/gmsh.hpp>
 #include <octavo/io/hyper_tree_grid.hpp>
 #include <octavo/io/leaf_list.hpp>
 #include <octavo/io/mfem.hpp>
 #include <octavo/io/oct.hpp>
 #include <octavo/io/openfoam.hpp>
+#include <octavo/io/p8est.hpp>
+
+#include "output.hpp"
 
 namespace octavo::cli {
 namespace {
 
 struct Named {
     const char* name;
-    const char* extension;  ///< "" for a folder
+    const char* extension;  ///< or, for what has none of its own, the name again
     HexmeshFormat format;
 };
 
-constexpr std::array<Named, 8> formats{{{"abaqus", ".inp", HexmeshFormat::abaqus},
-                                        {"openfoam", "", HexmeshFormat::openfoam},
-                                        {"mfem", ".mesh", HexmeshFormat::mfem},
-                                        {"gmsh", ".msh", HexmeshFormat::gmsh},
-                                        {"leaves", ".csv", HexmeshFormat::leaf_list},
-                                        {"vtu", ".vtu", HexmeshFormat::vtu},
-                                        {"htg", ".htg", HexmeshFormat::hyper_tree_grid},
-                                        {"octree", ".oct", HexmeshFormat::octree}}};
+constexpr std::array<Named, 10> formats{{{"abaqus", "inp", HexmeshFormat::abaqus},
+                                         {"openfoam", "openfoam", HexmeshFormat::openfoam},
+                                         {"mfem", "mesh", HexmeshFormat::mfem},
+                                         {"gmsh", "msh", HexmeshFormat::gmsh},
+                                         {"leaves", "csv", HexmeshFormat::leaf_list},
+                                         {"p8est", "p8est", HexmeshFormat::p8est},
+                                         {"p8est-30", "p8est-30", HexmeshFormat::p8est_30},
+                                         {"vtu", "vtu", HexmeshFormat::vtu},
+                                         {"htg", "htg", HexmeshFormat::hyper_tree_grid},
+                                         {"octree", "oct", HexmeshFormat::octree}}};
+
+const OutputFormats& hexmesh_outputs() {
+    static const OutputFormats outputs = [] {
+        OutputFormats all{"meshes of hexahedra", {}, ""};
+        for (const Named& named : formats) all.names.emplace_back(named.extension);
+        return all;
+    }();
+    return outputs;
+}
 
 bool needs_octants(HexmeshFormat format) {
-    return format == HexmeshFormat::openfoam || format == HexmeshFormat::leaf_list ||
-           format == HexmeshFormat::hyper_tree_grid || format == HexmeshFormat::octree;
+    return format != HexmeshFormat::abaqus && format != HexmeshFormat::mfem &&
+           format != HexmeshFormat::gmsh && format != HexmeshFormat::vtu;
 }
 
 }  // namespace
 
-Result<HexmeshFormat> hexmesh_format(const std::string& path, const std::string& to) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    std::string known;
-    for (const Named& named : formats) {
-        known += (known.empty() ? "" : ", ") + std::string(named.name);
-        if (to.empty() ? extension == named.extension && path != "-" : to == named.name) return named.format;
-    }
-    if (path.empty()) return HexmeshFormat::vtu;  // nothing is written
-    return Error{ErrorCode::unsupported,
-                 to.empty() ? "no format of hexahedral meshes follows from the name " + path +
-                                  "; --to says one of " + known
-                            : "there is no format " + to + " of hexahedral meshes; there are " + known,
-                 {}};
+std::vector<std::string> hexmesh_format_names() {
+    std::vector<std::string> names;
+    for (const Named& named : formats) names.emplace_back(named.name);
+    return names;
+}
+
+Result<HexmeshFormat> settle_hexmesh_output(Session& session, const std::vector<std::string>& inputs,
+                                            const std::string& output, const std::string& to) {
+    std::string wanted;
+    for (const Named& named : formats)
+        if (to == named.name) wanted = named.extension;
+    if (wanted.empty() && output != "-" && io::extension_of(output).empty()) wanted = "openfoam";
+    const Result<std::string> settled = settle_output(session, inputs, output, wanted, hexmesh_outputs());
+    if (!settled) return settled.error();
+    for (const Named& named : formats)
+        if (*settled == named.extension) return named.format;
+    return HexmeshFormat::vtu;  // nothing is written
 }
 
 Result<io::WriteReport> write_hexmesh(HexmeshFormat format, const std::string& path,
@@ -74,6 +88,10 @@ Result<io::WriteReport> write_hexmesh(HexmeshFormat format, const std::string& p
             return io::write_gmsh(path, mesh, names, context);
         case HexmeshFormat::leaf_list:
             return io::write_leaf_list(path, mesh, context);
+        case HexmeshFormat::p8est:
+            return io::write_p8est(path, mesh, {.root_level = 19}, context);
+        case HexmeshFormat::p8est_30:
+            return io::write_p8est(path, mesh, {.root_level = 30}, context);
         case HexmeshFormat::vtu:
             return io::write_vtu(path, mesh, more, context);
         case HexmeshFormat::hyper_tree_grid:

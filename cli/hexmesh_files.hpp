@@ -3,25 +3,43 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include <octavo/base/context.hpp>
 #include <octavo/io/hex_mesh_vtu.hpp>
 #include <octavo/io/write.hpp>
 #include <octavo/mesh/hex_mesh.hpp>
 
+#include "session.hpp"
+
 // The files that hexahedral meshes are written to, by extension or by name.
 
 namespace octavo::cli {
 
-enum class HexmeshFormat { abaqus, openfoam, mfem, gmsh, leaf_list, vtu, hyper_tree_grid, octree };
+enum class HexmeshFormat {
+    abaqus,
+    openfoam,
+    mfem,
+    gmsh,
+    leaf_list,
+    p8est,
+    p8est_30,
+    vtu,
+    hyper_tree_grid,
+    octree
+};
 
-inline constexpr const char* hexmesh_outputs =
+inline constexpr const char* hexmesh_outputs_help =
     "The mesh to write: .inp (Abaqus, CalculiX), .mesh (MFEM), .msh (Gmsh, when nothing hangs), .csv (leaf "
-    "list), .vtu "
-    "or .htg (ParaView), .oct, or a folder (OpenFOAM case)";
+    "list), .p8est (p4est), .vtu or .htg (ParaView), .oct, or a folder (OpenFOAM case)";
 
-/// `to` is a name of a format, or empty. Errors: unsupported.
-Result<HexmeshFormat> hexmesh_format(const std::string& path, const std::string& to);
+/// What `--to` takes.
+std::vector<std::string> hexmesh_format_names();
+
+/// The format for `output`: the one named `to`, or else by its extension, or an OpenFOAM case when it has none.
+/// Errors: those of settle_output.
+Result<HexmeshFormat> settle_hexmesh_output(Session& session, const std::vector<std::string>& inputs,
+                                            const std::string& output, const std::string& to);
 
 /// `names` are those of the solids; `more` goes to formats that have room for it.
 Result<io::WriteReport> write_hexmesh(HexmeshFormat format, const std::string& path,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -16,8 +15,8 @@
 #include "cell_values.hpp"
 #include "hexmesh_facts.hpp"
 #include "hexmesh_files.hpp"
+#include "hexmesh_sizes.hpp"
 #include "model.hpp"
-#include "numbers.hpp"
 #include "option_checks.hpp"
 #include "program.hpp"
 
@@ -35,62 +34,12 @@ struct HexmeshOptions {
     bool conforming = false, fit = false, no_fractions = false, skip_unsupported = false;
 };
 
-/// FILE:SURFACE or FILE:SURFACE:INTERIOR.
-struct FileSizes {
-    std::string file;
-    double surface = 0, interior = 0;
-};
-
-std::optional<FileSizes> parse_sizes(const std::string& text) {
-    // File names may have colons; numbers have none. At most two numbers, from the end.
-    const std::size_t last = text.rfind(':');
-    if (last == std::string::npos || last == 0) return std::nullopt;
-    const auto last_number = parse_numbers(std::string_view(text).substr(last + 1));
-    if (!last_number || last_number->size() != 1 || (*last_number)[0] < 0) return std::nullopt;
-    const std::size_t before = text.rfind(':', last - 1);
-    if (before != std::string::npos && before > 0) {
-        const auto number = parse_numbers(std::string_view(text).substr(before + 1, last - before - 1));
-        if (number && number->size() == 1 && (*number)[0] >= 0)
-            return FileSizes{text.substr(0, before), (*number)[0], (*last_number)[0]};
-    }
-    return FileSizes{text.substr(0, last), (*last_number)[0], 0};
-}
-
-/// x0,y0,z0,x1,y1,z1:SIZE.
-std::optional<hexmesh::BoxSize> parse_box(const std::string& text) {
-    const std::size_t colon = text.rfind(':');
-    if (colon == std::string::npos) return std::nullopt;
-    const auto corners = parse_numbers(std::string_view(text).substr(0, colon));
-    const auto size = parse_numbers(std::string_view(text).substr(colon + 1));
-    if (!corners || corners->size() != 6 || !size || size->size() != 1 || !((*size)[0] > 0))
-        return std::nullopt;
-    hexmesh::BoxSize box{{}, (*size)[0]};
-    box.box.add(Vec3{(*corners)[0], (*corners)[1], (*corners)[2]});
-    box.box.add(Vec3{(*corners)[3], (*corners)[4], (*corners)[5]});
-    return box;
-}
-
-/// SIZE or SIZE:DEGREES.
-std::optional<hexmesh::CurvatureSize> parse_curvature(const std::string& text) {
-    const std::size_t colon = text.find(':');
-    const auto size = parse_numbers(std::string_view(text).substr(0, colon));
-    if (!size || size->size() != 1 || !((*size)[0] > 0)) return std::nullopt;
-    hexmesh::CurvatureSize curvature{(*size)[0]};
-    if (colon == std::string::npos) return curvature;
-    const auto angle = parse_numbers(std::string_view(text).substr(colon + 1));
-    if (!angle || angle->size() != 1 || !((*angle)[0] > 0 && (*angle)[0] <= 180)) return std::nullopt;
-    curvature.angle_degrees = (*angle)[0];
-    return curvature;
-}
-
 /// The solid that a .csg tree describes, faceted as OpenSCAD does it.
 Result<mesh::Mesh> read_csg_solid(Session& session, const Context& context, const std::string& path,
                                   const HexmeshOptions& options) {
-    session.inputs.push_back(path);
-    const io::CsgReadOptions reading{.faceted = true, .skip_unsupported = options.skip_unsupported};
-    Result<io::CsgFile> file = session.timed("read", [&] { return io::read_csg(path, reading, context); });
-    if (!file) return std::move(file).error();
-    session.warn(file->warnings);
+    const Result<io::CsgFile> file =
+        read_csg(session, context, path, {.faceted = true, .skip_unsupported = options.skip_unsupported});
+    if (!file) return file.error();
     Result<boolean::Evaluated> evaluated =
         session.timed("evaluate", [&] { return boolean::evaluate(file->expression, {}, context); });
     if (!evaluated) return in_file(std::move(evaluated).error(), path);
@@ -102,14 +51,13 @@ Result<std::vector<mesh::Mesh>> read_solids(Session& session, const Context& con
                                             const HexmeshOptions& options) {
     std::vector<mesh::Mesh> solids;
     for (const std::string& path : options.inputs) {
-        if (same_file(path, options.output)) return would_overwrite(path);
         if (kind_of(path, "") == ModelKind::csg) {
             Result<mesh::Mesh> solid = read_csg_solid(session, context, path, options);
             if (!solid) return std::move(solid).error();
             solids.push_back(std::move(*solid));
             continue;
         }
-        Result<io::ReadMesh> read = read_mesh(session, context, path);
+        Result<io::ReadMesh> read = read_surface(session, context, path);
         if (!read) return std::move(read).error();
         solids.push_back(std::move(read->mesh));
     }
@@ -220,12 +168,9 @@ Status draw(Session& session, const Context& context, const HexmeshOptions& opti
 
 Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     const Context context = session.context();
-    if (Status status = check_inputs(session, options.inputs); !status) return std::move(status).error();
-    if (options.output == "-" && session.options.json)
-        return session.usage_error(
-            "--json prints its object on stdout, so the data cannot go there too; name a file");
-    const Result<HexmeshFormat> format = hexmesh_format(options.output, options.to);
-    if (!format) return session.usage_error(format.error().sentence);
+    const Result<HexmeshFormat> format =
+        settle_hexmesh_output(session, options.inputs, options.output, options.to);
+    if (!format) return format.error();
     const Result<hexmesh::Options> meshing = meshing_options(options);
     if (!meshing) return session.usage_error(meshing.error().sentence);
     Result<std::vector<mesh::Mesh>> solids = read_solids(session, context, options);
@@ -273,7 +218,7 @@ void add_size_options(CLI::App* verb, HexmeshOptions& options) {
     CLI::Option* level =
         verb->add_option("--level", options.level,
                          "Cells on surfaces are about 1/2^N of the longest side; 7 by default")
-            ->check(CLI::Range(0, octree::max_level))
+            ->check(whole_number(0, octree::max_level))
             ->type_name("N");
     verb->add_option("-p,--precision", options.precision,
                      "Cells on surfaces are no larger than this, in the model's units")
@@ -285,7 +230,7 @@ void add_size_options(CLI::App* verb, HexmeshOptions& options) {
         ->type_name("LENGTH");
     verb->add_option("--layers", options.layers,
                      "Layers of cells as small as those on the surface, beside it; 0, with --fit 1")
-        ->check(CLI::Range(0, 100))
+        ->check(whole_number(0, 100))
         ->type_name("N");
     verb->add_option("--size", options.sizes,
                      "Cells on the surface of one FILE, and inside it, are no larger than this")
@@ -310,21 +255,21 @@ void add_hexmesh(Program& program) {
     const auto options = std::make_shared<HexmeshOptions>();
     CLI::App* verb = program.verb("hexmesh", "Simulation", "Mesh solids with hexahedra for a solver",
                                   [options](Session& session) { return make_hexmesh(session, *options); });
-    verb->add_option("FILES", options->inputs, "Closed meshes or OpenSCAD trees (.csg): one solid each")
+    verb->add_option("FILES", options->inputs,
+                     "Closed meshes, OpenSCAD trees (.csg) or octrees: one solid each")
         ->required()
         ->type_name("FILE");
-    verb->add_option("-o,--output", options->output, hexmesh_outputs)->type_name("FILE");
+    verb->add_option("-o,--output", options->output, hexmesh_outputs_help)->type_name("FILE");
     add_size_options(verb, *options);
     CLI::Option* balance =
-        verb->add_option("--balance", options->balance,
-                         "Cells that differ by one level at most: at a face, edge or corner")
-            ->check(CLI::IsMember({"face", "edge", "corner"}))
-            ->type_name("CONTACT");
-    CLI::Option* keep = verb->add_option("--keep", options->keep,
-                                         "Cells that belong to the mesh: touched by a solid, at least half "
-                                         "filled (with --fit), or all")
-                            ->check(CLI::IsMember({"touched", "half", "all"}))
-                            ->type_name("WHICH");
+        take_one_of(verb->add_option("--balance", options->balance,
+                                     "Cells that differ by one level at most: at a face, edge or corner"),
+                    {"face", "edge", "corner"});
+    CLI::Option* keep = take_one_of(
+        verb->add_option("--keep", options->keep,
+                         "Cells that belong to the mesh: touched by a solid, at least half filled (with "
+                         "--fit), or all"),
+        {"touched", "half", "all"});
     CLI::Option* conforming = verb->add_flag("--conforming", options->conforming,
                                              "No hanging nodes: all hexahedra fit, by templates");
     verb->add_flag("--fit", options->fit, "Draw the boundary onto the surface; every cell stays valid");
@@ -332,13 +277,12 @@ void add_hexmesh(Program& program) {
     keep->excludes(conforming);
     verb->add_flag("--no-fractions", options->no_fractions,
                    "Do not compute how much of each boundary cell is filled");
-    verb->add_option("--open", options->open, "An open surface: reject it, or close it and go by winding")
-        ->check(CLI::IsMember({"reject", "winding"}))
-        ->type_name("POLICY");
-    verb->add_option("--overlaps", options->overlaps,
-                     "A solid that overlaps itself: reject it, or go by winding")
-        ->check(CLI::IsMember({"reject", "winding"}))
-        ->type_name("POLICY");
+    take_one_of(verb->add_option("--open", options->open,
+                                 "An open surface: reject it, or close it and go by winding"),
+                {"reject", "winding"});
+    take_one_of(verb->add_option("--overlaps", options->overlaps,
+                                 "A solid that overlaps itself: reject it, or go by winding"),
+                {"reject", "winding"});
     verb->add_flag("--skip-unsupported", options->skip_unsupported,
                    "For .csg: leave out text and the like, with warnings");
     verb->add_option("--picture", options->picture, "A picture of the mesh to draw: .png")
@@ -347,8 +291,8 @@ void add_hexmesh(Program& program) {
     verb->add_option("--values", options->values,
                      "Numbers for the cells, one line each: they colour the picture and go to a .vtu")
         ->type_name("FILE");
-    verb->add_option("--to", options->to, "Format of the output, instead of by its extension")
-        ->type_name("FORMAT");
+    take_one_of(verb->add_option("--to", options->to, "Format of the output, instead of by its extension"),
+                hexmesh_format_names());
 }
 
 }  // namespace octavo::cli

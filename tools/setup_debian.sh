@@ -11,9 +11,9 @@ packages=(g++ cmake ninja-build pkg-config libtbb-dev zlib1g-dev libpugixml-dev 
 for option in "$@"; do
     case $option in
         --tests) packages+=(libgtest-dev libgmock-dev librapidcheck-dev libboost-dev libgmp-dev clang-format-14 python3 man-db
-                   calculix-ccx python3-meshio) ;;
+                   calculix-ccx python3-meshio libp4est-dev libopenmpi-dev) ;;
         --bench) packages+=(libbenchmark-dev libopenvdb-dev libcgal-dev libembree-dev libboost-iostreams-dev
-                   libp4est-dev libopenmpi-dev) ;;
+                   libp4est-dev libopenmpi-dev openfoam) ;;
         *) echo "setup_debian.sh: unknown option $option" >&2; exit 2 ;;
     esac
 done

@@ -20,6 +20,7 @@
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/octree/balance.hpp>
+#include <octavo/octree/complete.hpp>
 
 #include "hexmesh_peer.hpp"
 #include "octree_peer.hpp"
@@ -85,7 +86,7 @@ std::vector<octree::CellKey> unbalanced_leaves(const mesh::Mesh& solid, int leve
     std::vector<octree::CellKey> fine;
     for (const octree::CellKey cell : cells)
         if (cell.level() == deepest && cell.child_index() == 0) fine.push_back(cell);
-    return bench::completed(fine);
+    return octree::complete(fine);
 }
 
 /// False when counts differ.

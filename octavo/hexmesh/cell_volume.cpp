@@ -22,11 +22,45 @@ struct Vertex {
     double x, y, z;
 };
 
-/// A triangle clipped by up to six planes.
-struct Polygon {
-    std::array<Vertex, 24> vertices;  // nine, and room for what rounding may add
-    std::size_t size = 0;
-    void add(const Vertex& vertex) { vertices[size++] = vertex; }
+/// A triangle clipped by up to six planes; two places for it, so that clipping copies nothing else.
+class Polygon {
+  public:
+    std::size_t size() const { return size_; }
+    const Vertex& operator[](std::size_t i) const { return vertices()[i]; }
+    void add(const Vertex& vertex) { places_[now_][size_++] = vertex; }
+
+    /// Leaves the part with coordinate ≥ `bound` (`sign` 1) or ≤ `bound` (`sign` −1).
+    void clip(double Vertex::*axis, double bound, double sign) {
+        std::array<double, most> above;
+        unsigned outside = 0;
+        for (std::size_t i = 0; i < size_; ++i) {
+            above[i] = sign * (vertices()[i].*axis - bound);
+            outside |= unsigned{above[i] < 0} << i;
+        }
+        if (outside == 0) return;
+        const std::size_t size = std::exchange(size_, 0);
+        if (outside == (1U << size) - 1) return;
+        const std::array<Vertex, most>& old = vertices();
+        now_ ^= 1U;
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::size_t next = i + 1 == size ? 0 : i + 1;
+            if (!(outside >> i & 1)) add(old[i]);
+            if ((outside >> i & 1) == (outside >> next & 1)) continue;
+            const Vertex &a = old[i], &b = old[next];
+            const double part = above[i] / (above[i] - above[next]);
+            Vertex cut{a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z)};
+            cut.*axis = bound;
+            add(cut);
+        }
+    }
+
+  private:
+    static constexpr std::size_t most = 24;  // nine, and room for what rounding may add
+    const std::array<Vertex, most>& vertices() const { return places_[now_]; }
+
+    std::array<std::array<Vertex, most>, 2> places_;
+    unsigned now_ = 0;
+    std::size_t size_ = 0;
 };
 
 using IntegerVertex = std::array<std::int64_t, 3>;
@@ -101,28 +135,11 @@ class LocalFacet {
     double scale_;
 };
 
-/// The part with coordinate ≥ 0 (`sign` 1) or ≤ 1 (`sign` −1).
-Polygon clip(const Polygon& polygon, double Vertex::*axis, double bound, double sign) {
-    Polygon result;
-    for (std::size_t i = 0; i < polygon.size; ++i) {
-        const Vertex& a = polygon.vertices[i];
-        const Vertex& b = polygon.vertices[i + 1 == polygon.size ? 0 : i + 1];
-        const double above_a = sign * (a.*axis - bound), above_b = sign * (b.*axis - bound);
-        if (above_a >= 0) result.add(a);
-        if ((above_a < 0) == (above_b < 0)) continue;
-        const double part = above_a / (above_a - above_b);
-        Vertex cut{a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z)};
-        cut.*axis = bound;
-        result.add(cut);
-    }
-    return result;
-}
-
 /// ∫∫ (1 − z) dx dy over the polygon, positive where it faces up.
 double volume_above(const Polygon& polygon) {
     double sum = 0;
-    for (std::size_t i = 2; i < polygon.size; ++i) {
-        const Vertex &a = polygon.vertices[0], &b = polygon.vertices[i - 1], &c = polygon.vertices[i];
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        const Vertex &a = polygon[0], &b = polygon[i - 1], &c = polygon[i];
         const double twice_area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
         sum += twice_area * (0.5 - (a.z + b.z + c.z) / 6);
     }
@@ -166,10 +183,10 @@ double filled_part(std::span<const Facet> facets, std::span<const std::uint32_t>
         if (facet.high[2] <= low.z || facet.low[2] > high.z) continue;
         const LocalFacet local(facet, cell);
         Polygon polygon = local.between_floor_and_ceiling();
-        if (facet.low[0] < low.x) polygon = clip(polygon, &Vertex::x, 0, 1);
-        if (facet.high[0] > high.x) polygon = clip(polygon, &Vertex::x, 1, -1);
-        if (facet.low[1] < low.y) polygon = clip(polygon, &Vertex::y, 0, 1);
-        if (facet.high[1] > high.y) polygon = clip(polygon, &Vertex::y, 1, -1);
+        if (facet.low[0] < low.x) polygon.clip(&Vertex::x, 0, 1);
+        if (facet.high[0] > high.x) polygon.clip(&Vertex::x, 1, -1);
+        if (facet.low[1] < low.y) polygon.clip(&Vertex::y, 0, 1);
+        if (facet.high[1] > high.y) polygon.clip(&Vertex::y, 1, -1);
         // Upwards through a facet that faces up leads out of the solid.
         filled -= volume_above(polygon);
 

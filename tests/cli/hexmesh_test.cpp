@@ -34,7 +34,7 @@ TEST_F(Hexmesh, TellsWhatScriptsRelyOn) {
 
 TEST_F(Hexmesh, WritesEveryFormat) {
     ASSERT_EQ(octavo("shape gear -o gear.ply").exit_code, 0);
-    for (const char* output : {"g.inp", "g.mesh", "g.csv", "g.vtu", "g.htg"}) {
+    for (const char* output : {"g.inp", "g.mesh", "g.csv", "g.p8est", "g.vtu", "g.htg"}) {
         const Ran ran = octavo(std::string("hexmesh gear.ply --level 4 -o ") + output);
         EXPECT_EQ(ran.exit_code, 0) << output << ran.err;
         EXPECT_GT(std::filesystem::file_size(path(output)), 1000u) << output;
@@ -43,6 +43,12 @@ TEST_F(Hexmesh, WritesEveryFormat) {
     EXPECT_TRUE(std::filesystem::exists(path("case/constant/polyMesh/owner")));
     EXPECT_EQ(octavo("hexmesh gear.ply --level 4 --conforming -o g.msh").exit_code, 0);
     EXPECT_EQ(read("g.msh").rfind("$MeshFormat", 0), 0u);
+    EXPECT_EQ(octavo("hexmesh gear.ply --level 4 --to p8est-30 -o wide.p8est").exit_code, 0);
+    EXPECT_EQ(read("wide.p8est").size(), read("g.p8est").size());
+    EXPECT_NE(read("wide.p8est"), read("g.p8est"));
+    EXPECT_EQ(octavo("hexmesh gear.ply --level 4 -o g.oct").exit_code, 0);
+    const Ran again = octavo("hexmesh g.oct -p 10 --json");
+    EXPECT_EQ(again.exit_code, 0) << again.err;
     const Ran piped = octavo("hexmesh gear.ply --level 4 -o - --to abaqus");
     EXPECT_EQ(piped.out, read("g.inp"));
 }
@@ -113,7 +119,9 @@ TEST_F(Hexmesh, RefusesBadUsageAndBadDataWithThePlace) {
           "hexmesh cube.off --level 3 -p 1", "hexmesh cube.off --curvature 1:999",
           "hexmesh cube.off --conforming --balance face", "hexmesh cube.off -o cube.xyz",
           "hexmesh cube.off --size other.off:1 -o c.inp", "hexmesh cube.off -o - --to abaqus --json",
-          "hexmesh - - -o c.inp"})
+          "hexmesh - - -o c.inp", "hexmesh cube.off --level two", "hexmesh cube.off --layers 1.5",
+          "hexmesh cube.off --balance sides", "hexmesh cube.off --keep some", "hexmesh cube.off -o -",
+          "hexmesh cube.off --to stl -o c.inp", "hexmesh cube.off --proximity nan"})
         EXPECT_EQ(octavo(arguments).exit_code, 2) << arguments;
     for (const char* arguments :
          {"hexmesh none.off -o c.inp", "hexmesh cube.off -o c.msh --level 3 --box 0,0,0,0.1,0.1,0.1:0.05",

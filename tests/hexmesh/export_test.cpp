@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -20,6 +21,7 @@
 #include <octavo/io/abaqus.hpp>
 #include <octavo/io/leaf_list.hpp>
 #include <octavo/io/openfoam.hpp>
+#include <octavo/io/p8est.hpp>
 #include <octavo/mesh/shapes.hpp>
 
 #include "hexmesh/folder.hpp"
@@ -289,6 +291,51 @@ TEST(WriteLeafList, HasOneLineACell) {
         ++cell;
     }
     EXPECT_EQ(cell, built.mesh.cells.size());
+}
+
+TEST(WriteP8est, HasTheFieldsThatP4estReads) {
+    const mesh::Mesh solid =
+        mesh::cube(2);  // tests/p4est has p4est read such files; this test needs no p4est
+    Options options{.precision = 0.5, .largest = 0.5};
+    options.boxes = {{{{0, 0, 0}, {0.5, 0.5, 0.5}}, 0.25}};
+    const Result<Built> built = build(std::span(&solid, 1), options);
+    ASSERT_TRUE(built);
+    const Folder folder;
+    for (const int root_level : {19, 30}) {
+        const auto written =
+            io::write_p8est((folder / "m.p8est").string(), built->mesh, {.root_level = root_level});
+        ASSERT_TRUE(written);
+        const std::string file = text_of(folder / "m.p8est");
+        constexpr std::size_t header = 384 + 64, record = 20;
+        const auto word = [&](std::size_t at) {
+            std::int32_t value = 0;
+            std::memcpy(&value, file.data() + at, sizeof value);
+            return value;
+        };
+        EXPECT_EQ(file.substr(0, 6), std::string("p8est\0", 6));
+        const auto leaves = static_cast<std::size_t>(word(header - 8));
+        ASSERT_EQ(file.size(), header + record * leaves);
+        double filled = 0;
+        std::size_t cells = 0;
+        for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+            const std::size_t at = header + record * leaf;
+            const std::int32_t level = word(at + 12), side = 1 << (root_level - level);
+            for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_EQ(word(at + 4 * axis) % side, 0);
+            filled += std::pow(0.125, level);
+            if (word(at + 16) == -1) continue;
+            ASSERT_EQ(level, built->mesh.cells[cells].level());
+            ASSERT_EQ(word(at + 16), built->mesh.set_of_cell[cells++]);
+        }
+        EXPECT_EQ(filled, 1) << "a complete tree";
+        EXPECT_EQ(cells, built->mesh.cells.size());
+    }
+    mesh::HexMesh deep;
+    deep.cells = {octree::CellKey::at({1, 1, 1}, 19)};
+    deep.corners.resize(1), deep.sets.resize(1), deep.set_of_cell.resize(1);
+    const auto refused = io::write_p8est((folder / "d.p8est").string(), deep);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::limit);
+    EXPECT_TRUE(io::write_p8est((folder / "d.p8est").string(), deep, {.root_level = 30}));
 }
 
 }  // namespace
