@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma GCC diagnostic ignored "-Wpsabi"  // vector types stay inside of this file
 #include <cmath>
 
 #include <octavo/boolean/lanes.hpp>
 #include <octavo/exact/bit_budget.hpp>
-
-#pragma GCC diagnostic ignored "-Wpsabi"  // vector types stay inside of this file
 
 namespace octavo::boolean {
 namespace {

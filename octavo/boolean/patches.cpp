@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma GCC diagnostic ignored "-Wpsabi"  // vector types stay inside of this file
 #include <algorithm>
 #include <bit>
 #include <string>
@@ -11,8 +12,6 @@
 #include <octavo/boolean/lanes.hpp>
 #include <octavo/boolean/patches.hpp>
 #include <octavo/exact/plane.hpp>
-
-#pragma GCC diagnostic ignored "-Wpsabi"  // vector types stay inside of this file
 
 namespace octavo::boolean {
 namespace {
