@@ -4,7 +4,6 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -28,9 +27,15 @@ struct Row {
     std::map<std::string, std::uint64_t> counts;  ///< "open edges" → n, from the columns and the remarks
 };
 
+/// The number before the words: 12 of "… 12 open edges …"; 0 where the text does not say.
 std::uint64_t count_in(const std::string& text, const std::string& words) {
-    std::smatch match;
-    return std::regex_search(text, match, std::regex("(\\d+) " + words)) ? std::stoull(match[1]) : 0;
+    const std::string digits = "0123456789";
+    for (auto at = text.find(" " + words); at != std::string::npos; at = text.find(" " + words, at + 1)) {
+        const auto before = text.find_last_not_of(digits, at == 0 ? 0 : at - 1);
+        const auto first = before == std::string::npos ? 0 : before + 1;
+        if (first < at) return std::stoull(text.substr(first, at - first));
+    }
+    return 0;
 }
 
 std::vector<Row> table_of(const std::string& folder) {
