@@ -56,6 +56,8 @@ Json json_of(const hexmesh::Built& built, std::span<const std::string> names) {
             {"smallest_cell", report.smallest_cell},
             {"largest_cell", report.largest_cell},
             {"tree_cells", report.tree_cells},
+            {"cells_added", report.half_filled.added},
+            {"cells_left_out", report.half_filled.left_out},
             {"overlaps", report.overlaps},
             {"levels", levels},
             {"solids", solids}};
@@ -101,13 +103,21 @@ void add_quality(Session& session, const hexmesh::Quality& quality) {
                      " cells are not proved to be positive everywhere");
 }
 
-void add_fit(Session& session, const hexmesh::FitReport& report) {
-    session.result["fit"] = {{"boundary_nodes", report.boundary_nodes},
+void add_fit(Session& session, const hexmesh::FitReport& report, const mesh::HexMesh& fitted) {
+    session.result["cells"] = fitted.cell_count();
+    session.result["nodes"] = fitted.node_count();
+    session.result["hanging_nodes"] = fitted.hanging_nodes();
+    session.result["fit"] = {{"buffer_layer", report.has_buffer_layer},
+                             {"boundary_nodes", report.boundary_nodes},
                              {"nodes_on_surface", report.nodes_on_surface},
                              {"mean_distance", report.mean_distance},
                              {"largest_distance", report.largest_distance},
                              {"mean_distance_before", report.mean_distance_before},
                              {"largest_distance_before", report.largest_distance_before}};
+    if (report.has_buffer_layer)
+        session.text += fmt::format(
+            "with a layer of cells on the boundary: {} cells, {} nodes, {} of them hang\n",
+            grouped(fitted.cell_count()), grouped(fitted.node_count()), grouped(fitted.hanging_nodes()));
     session.text += fmt::format(
         "{} of {} boundary nodes are on the surface; distance {} on average (was {}), {} at most (was {})\n",
         grouped(report.nodes_on_surface), grouped(report.boundary_nodes), number_text(report.mean_distance),

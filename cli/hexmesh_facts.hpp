@@ -23,8 +23,8 @@ std::string text_of(const hexmesh::Built& built, std::span<const std::string> na
 /// Adds `quality`: least, mean and a histogram of the scaled Jacobian.
 void add_quality(Session& session, const hexmesh::Quality& quality);
 
-/// Adds `fit`: how near the boundary came to the surface.
-void add_fit(Session& session, const hexmesh::FitReport& report);
+/// Adds `fit`: how near the boundary came to the surface; counts are those of the fitted mesh from here on.
+void add_fit(Session& session, const hexmesh::FitReport& report, const mesh::HexMesh& fitted);
 
 /// What the user should know before trusting the mesh.
 void warn_about(Session& session, const hexmesh::Report& report, std::span<const std::string> names);

@@ -46,11 +46,6 @@ const OutputFormats& hexmesh_outputs() {
     return outputs;
 }
 
-bool needs_octants(HexmeshFormat format) {
-    return format != HexmeshFormat::abaqus && format != HexmeshFormat::mfem &&
-           format != HexmeshFormat::gmsh && format != HexmeshFormat::vtu;
-}
-
 }  // namespace
 
 std::vector<std::string> hexmesh_format_names() {
@@ -70,6 +65,11 @@ Result<HexmeshFormat> settle_hexmesh_output(Session& session, const std::vector<
     for (const Named& named : formats)
         if (*settled == named.extension) return named.format;
     return HexmeshFormat::vtu;  // nothing is written
+}
+
+bool needs_octants(HexmeshFormat format) {
+    return format != HexmeshFormat::abaqus && format != HexmeshFormat::mfem &&
+           format != HexmeshFormat::gmsh && format != HexmeshFormat::vtu;
 }
 
 Result<io::WriteReport> write_hexmesh(HexmeshFormat format, const std::string& path,

@@ -41,6 +41,9 @@ std::vector<std::string> hexmesh_format_names();
 Result<HexmeshFormat> settle_hexmesh_output(Session& session, const std::vector<std::string>& inputs,
                                             const std::string& output, const std::string& to);
 
+/// Whether the format knows the cells of an octree only.
+bool needs_octants(HexmeshFormat format);
+
 /// `names` are those of the solids; `more` goes to formats that have room for it.
 Result<io::WriteReport> write_hexmesh(HexmeshFormat format, const std::string& path,
                                       const mesh::HexMesh& mesh, std::span<const std::string> names,

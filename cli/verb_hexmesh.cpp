@@ -87,13 +87,16 @@ Result<hexmesh::Options> meshing_options(const HexmeshOptions& options) {
     meshing.balance = options.balance == "face"   ? octree::Contact::face
                       : options.balance == "edge" ? octree::Contact::edge
                                                   : octree::Contact::corner;
-    meshing.keep = options.keep == "all"                                             ? hexmesh::Keep::all
-                   : options.keep == "half" || (options.keep.empty() && options.fit) ? hexmesh::Keep::half
-                                                                                     : hexmesh::Keep::touched;
-    if (options.no_fractions && meshing.keep == hexmesh::Keep::half)
-        return Error{ErrorCode::bad_input,
-                     "--keep half and --fit need fractions, and --no-fractions forbids them",
-                     {}};
+    const std::string keep = !options.keep.empty() ? options.keep : options.fit ? "manifold" : "touched";
+    meshing.keep = keep == "all"        ? hexmesh::Keep::all
+                   : keep == "half"     ? hexmesh::Keep::half
+                   : keep == "manifold" ? hexmesh::Keep::manifold
+                                        : hexmesh::Keep::touched;
+    if (options.no_fractions && (keep == "half" || keep == "manifold"))
+        return Error{
+            ErrorCode::bad_input,
+            "--fit and --keep " + keep + " need the parts that are filled, and --no-fractions forbids them",
+            {}};
     meshing.fractions = options.no_fractions ? hexmesh::Fractions::skip : hexmesh::Fractions::compute;
     meshing.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
     meshing.overlaps =
@@ -185,10 +188,12 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     session.result = json_of(*built, names);
     session.text = text_of(*built, names);
     if (options.fit) {
+        hexmesh::FitOptions fitting;
+        if (needs_octants(*format)) fitting.buffer_layer = hexmesh::BufferLayer::none;
         Result<hexmesh::FitReport> fitted =
-            session.timed("fit", [&] { return hexmesh::fit(built->mesh, *solids, {}, context); });
+            session.timed("fit", [&] { return hexmesh::fit(built->mesh, *solids, fitting, context); });
         if (!fitted) return std::move(fitted).error();
-        add_fit(session, *fitted);
+        add_fit(session, *fitted, built->mesh);
     }
     if (options.conforming || options.fit) add_quality(session, hexmesh::measure_quality(built->mesh));
     const Result<CellNumbers> numbers = cell_numbers(session, options, built->mesh);
@@ -266,10 +271,11 @@ void add_hexmesh(Program& program) {
                                      "Cells that differ by one level at most: at a face, edge or corner"),
                     {"face", "edge", "corner"});
     CLI::Option* keep = take_one_of(
-        verb->add_option("--keep", options->keep,
-                         "Cells that belong to the mesh: touched by a solid, at least half filled (with "
-                         "--fit), or all"),
-        {"touched", "half", "all"});
+        verb->add_option(
+            "--keep", options->keep,
+            "Cells that belong to the mesh: touched by a solid, at least half filled, these with a "
+            "boundary that is a manifold (with --fit), or all"),
+        {"touched", "half", "manifold", "all"});
     CLI::Option* conforming = verb->add_flag("--conforming", options->conforming,
                                              "No hanging nodes: all hexahedra fit, by templates");
     verb->add_flag("--fit", options->fit, "Draw the boundary onto the surface; every cell stays valid");

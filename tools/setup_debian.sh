@@ -13,7 +13,7 @@ for option in "$@"; do
         --tests) packages+=(libgtest-dev libgmock-dev librapidcheck-dev libboost-dev libgmp-dev clang-format-14 python3 man-db
                    calculix-ccx python3-meshio libp4est-dev libopenmpi-dev) ;;
         --bench) packages+=(libbenchmark-dev libopenvdb-dev libcgal-dev libembree-dev libboost-iostreams-dev
-                   libp4est-dev libopenmpi-dev openfoam) ;;
+                   libp4est-dev libopenmpi-dev) ;;
         *) echo "setup_debian.sh: unknown option $option" >&2; exit 2 ;;
     esac
 done

@@ -4,16 +4,21 @@
 //
 //     octavo_hexmesh_peers [MESH [LEVEL…]]        a closed mesh; without it a generated one; levels 8, 9 and 10
 //
-// CPU seconds of the process, one thread, the best of three of Octavo and one run of each peer, as CSV. Cell counts
-// under balance must agree or the program fails.
+// CPU seconds of the process, one thread, the best of three of Octavo and one run of each peer, as CSV; the last column is
+// how many times as long as Octavo the system takes for the same. Peak memory of Octavo is that of a process that
+// does nothing else. Cell counts under balance must agree or the program fails.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/number.hpp>
@@ -23,6 +28,7 @@
 #include <octavo/octree/complete.hpp>
 
 #include "hexmesh_peer.hpp"
+#include "measured_at.hpp"
 #include "octree_peer.hpp"
 #include "peer_clock.hpp"
 
@@ -31,23 +37,45 @@ namespace {
 using namespace octavo;
 using bench::Usage;
 
+/// Peak memory of `work` in a process of its own: in this one, pages that earlier work left would count.
+template <class Work>
+double peak_megabytes(const Work& work) {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) return 0;
+    const pid_t child = fork();
+    if (child == 0) {
+        const bench::Stopwatch watch;
+        work();
+        const double megabytes = watch.stop().megabytes;
+        _exit(write(ends[1], &megabytes, sizeof megabytes) == sizeof megabytes ? EXIT_SUCCESS : EXIT_FAILURE);
+    }
+    close(ends[1]);
+    double megabytes = 0;
+    if (child < 0 || read(ends[0], &megabytes, sizeof megabytes) != sizeof megabytes) megabytes = 0;
+    close(ends[0]);
+    if (child > 0) waitpid(child, nullptr, 0);
+    return megabytes;
+}
+
 template <class Work>
 Usage best_of_three(const Work& work) {
-    Usage best{1e300, 0};
+    Usage best{1e300, peak_megabytes(work)};
     for (int run = 0; run < 3; ++run) {
         const bench::Stopwatch watch;
         work();
-        const Usage usage = watch.stop();
-        // The first run has its memory to itself; later ones find pages that it left.
-        best = {std::min(best.seconds, usage.seconds), std::max(best.megabytes, usage.megabytes)};
+        best.seconds = std::min(best.seconds, watch.stop().seconds);
     }
     return best;
 }
 
-void print(int level, const char* stage, const char* who, const Usage& usage, std::size_t cells) {
+/// `octavo` is the time to compare with; 0 for Octavo itself.
+void print(int level, const char* stage, const char* who, const Usage& usage, std::size_t cells,
+           double octavo = 0) {
     const auto count = static_cast<double>(cells);
-    std::printf("%d,%s,%s,%.3f,%zu,%.2f,%.1f\n", 1 << level, stage, who, usage.seconds, cells,
-                count / usage.seconds / 1e6, usage.megabytes * 1048576 / count);
+    std::printf("%d,%s,%s,%.3f,%zu,%.2f,", 1 << level, stage, who, usage.seconds, cells,
+                count / usage.seconds / 1e6);
+    if (usage.megabytes > 0) std::printf("%.1f", usage.megabytes * 1048576 / count);
+    std::printf(",%.2f\n", octavo > 0 ? usage.seconds / octavo : 1.0);
     std::fflush(stdout);
 }
 
@@ -60,19 +88,22 @@ hexmesh::Built built_or_exit(const mesh::Mesh& solid, const hexmesh::Options& op
     std::exit(EXIT_FAILURE);
 }
 
-/// The whole mesh, with and without the parts of boundary cells.
-void measure_meshes(const mesh::Mesh& solid, int level) {
+/// The whole mesh, without and with the parts of boundary cells. Returns the seconds without.
+double measure_meshes(const mesh::Mesh& solid, int level) {
     hexmesh::Options options{.level = level};
+    double without = 0;
     for (const auto fractions : {hexmesh::Fractions::skip, hexmesh::Fractions::compute}) {
         options.fractions = fractions;
         hexmesh::Report report;
         const Usage usage = best_of_three([&] { report = built_or_exit(solid, options).report; });
         const bool computed = fractions == hexmesh::Fractions::compute;
         print(level, computed ? "mesh with fractions" : "mesh", "Octavo", usage, report.tree_cells);
+        if (!computed) without = usage.seconds;
         if (computed)
             std::printf("# relative error of the filled volume: %.1e\n",
                         report.solids[0].filled_volume / report.solids[0].exact_volume - 1);
     }
+    return without;
 }
 
 /// The coarsest tree with the smallest cells of a mesh: what its refinement was before balance, as peers are given it.
@@ -102,9 +133,9 @@ bool measure_balance_and_nodes(const std::vector<octree::CellKey>& leaves, int l
         print(level, "number nodes", "Octavo", numbering, balanced.size());
         const auto peer = bench::p4est_balance_and_number(leaves, contact);
         if (!peer) continue;
-        print(level, name, "p4est", {peer->balance_seconds, 0}, peer->cells);
+        print(level, name, "p4est", {peer->balance_seconds, 0}, peer->cells, balancing.seconds);
         if (peer->number_seconds > 0)
-            print(level, "number nodes", "p4est", {peer->number_seconds, 0}, peer->cells);
+            print(level, "number nodes", "p4est", {peer->number_seconds, 0}, peer->cells, numbering.seconds);
         if (peer->cells == balanced.size()) continue;
         std::printf("# DIFFERENT: Octavo %zu cells, p4est %zu\n", balanced.size(), peer->cells);
         agree = false;
@@ -113,7 +144,8 @@ bool measure_balance_and_nodes(const std::vector<octree::CellKey>& leaves, int l
 }
 
 /// A signed distance in a band and the sign everywhere, on cells of the side that the mesh has at the surface.
-void measure_openvdb([[maybe_unused]] const mesh::Mesh& solid, [[maybe_unused]] int level) {
+void measure_openvdb([[maybe_unused]] const mesh::Mesh& solid, [[maybe_unused]] int level,
+                     [[maybe_unused]] double octavo_seconds) {
 #ifdef OCTAVO_WITH_OPENVDB
     const double side =
         built_or_exit(solid, {.level = level, .fractions = hexmesh::Fractions::skip}).report.smallest_cell;
@@ -125,7 +157,7 @@ void measure_openvdb([[maybe_unused]] const mesh::Mesh& solid, [[maybe_unused]] 
     }
     for (const mesh::Triangle& t : solid.triangles) job.triangles.push_back({t[0], t[1], t[2]});
     const bench::OctreeAnswer answer = bench::run_openvdb(job);
-    print(level, "level set of half-width 3", "OpenVDB", answer.usage, answer.leaves);
+    print(level, "level set of half-width 3", "OpenVDB", answer.usage, answer.leaves, octavo_seconds);
 #endif
 }
 
@@ -147,13 +179,14 @@ int main(int argc, char** argv) {
         for (int i = 2; i < argc; ++i) levels.push_back(std::atoi(argv[i]));
     }
     bool agree = true;
+    std::printf("# %s\n", bench::measured_at(OCTAVO_SOURCES).c_str());
     std::printf("# %s: %zu triangles, one thread, CPU seconds; cells of the octree, those outside included\n",
                 argc > 1 ? argv[1] : "generated", solid.triangles.size());
-    std::printf("resolution,stage,system,cpu_s,cells,million_cells_per_s,peak_bytes_per_cell\n");
+    std::printf("resolution,stage,system,cpu_s,cells,million_cells_per_s,peak_bytes_per_cell,times_octavo\n");
     for (const int level : levels) {
-        measure_meshes(solid, level);
+        const double seconds = measure_meshes(solid, level);
         agree = measure_balance_and_nodes(unbalanced_leaves(solid, level), level) && agree;
-        measure_openvdb(solid, level);
+        measure_openvdb(solid, level, seconds);
     }
     return agree ? EXIT_SUCCESS : EXIT_FAILURE;
 }

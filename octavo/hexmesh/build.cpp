@@ -3,13 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/classify.hpp>
+#include <octavo/hexmesh/half_filled.hpp>
 #include <octavo/hexmesh/number.hpp>
 #include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/snap.hpp>
@@ -241,48 +241,6 @@ void count_cells(const mesh::HexMesh& mesh, Report& report) {
     }
 }
 
-/// The solids that a cell on their boundary goes to when it goes to whoever fills half of it. `fractions` are those of
-/// `set.boundary`.
-mesh::SolidSet decided(const mesh::SolidSet& set, std::span<const double> fractions) {
-    mesh::SolidSet result;
-    result.inside = set.inside;
-    double filled = set.inside.empty() ? 0 : 1;
-    for (const double fraction : fractions) filled += fraction;
-    if (filled < 0.5) return result;
-    for (std::size_t i = 0; i < fractions.size(); ++i)
-        if (fractions[i] >= 0.5) result.boundary.push_back(set.boundary[i]);
-    if (result.boundary.empty() && set.inside.empty())
-        result.boundary.push_back(set.boundary[static_cast<std::size_t>(
-            std::max_element(fractions.begin(), fractions.end()) - fractions.begin())]);
-    return result;
-}
-
-/// Leaves every cell to the solids that fill half of it.
-void decide_by_half(ClassifiedCells& cells) {
-    std::map<std::pair<std::vector<mesh::SolidIndex>, std::vector<mesh::SolidIndex>>, std::uint16_t> numbers;
-    std::vector<mesh::SolidSet> sets{mesh::SolidSet{}};
-    numbers.emplace(std::pair(sets[0].inside, sets[0].boundary), std::uint16_t{0});
-    std::vector<double> kept_fractions;
-    std::size_t next = 0;
-    for (std::uint16_t& number : cells.set_of_cell) {
-        const mesh::SolidSet& set = cells.sets[number];
-        const std::span<const double> fractions(cells.fractions.data() + next, set.boundary.size());
-        next += set.boundary.size();
-        mesh::SolidSet changed = decided(set, fractions);
-        for (std::size_t i = 0; i < set.boundary.size(); ++i)
-            if (std::find(changed.boundary.begin(), changed.boundary.end(), set.boundary[i]) !=
-                changed.boundary.end())
-                kept_fractions.push_back(fractions[i]);
-        // Never more sets than before: a set has fewer solids than the one that it comes from, or the same.
-        const auto [at, fresh] = numbers.try_emplace(std::pair(changed.inside, changed.boundary),
-                                                     static_cast<std::uint16_t>(sets.size()));
-        if (fresh) sets.push_back(std::move(changed));
-        number = at->second;
-    }
-    cells.sets = std::move(sets);
-    cells.fractions = std::move(kept_fractions);
-}
-
 /// Keeps the cells that belong to the mesh, and numbers their nodes.
 Result<mesh::HexMesh> assemble(const exact::Lattice& lattice, ClassifiedCells cells, const Options& options) {
     std::vector<std::uint8_t> kept;
@@ -322,7 +280,8 @@ Result<mesh::HexMesh> assemble(const exact::Lattice& lattice, ClassifiedCells ce
 Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, const Context& context) {
     if (options.layers < 0 || options.layers > 100)
         return Error{ErrorCode::bad_input, "the number of layers must be 0 to 100", {}};
-    if (options.keep == Keep::half && options.fractions == Fractions::skip)
+    const bool by_half = options.keep == Keep::half || options.keep == Keep::manifold;
+    if (by_half && options.fractions == Fractions::skip)
         return Error{
             ErrorCode::bad_input, "to keep cells that are half filled, fractions must be computed", {}};
     Result<Prepared> prepared = prepare(solids, options);
@@ -339,7 +298,11 @@ Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, 
     built.report.overlaps = overlaps;
     built.report.solids = std::move(prepared->reports);
     measure_solids(prepared->lattice, *cells, built.report.solids);
-    if (options.keep == Keep::half) decide_by_half(*cells);
+    if (by_half) {
+        const Result<HalfFilled> decided = decide_by_half(*cells, options.keep);
+        if (!decided) return decided.error();
+        built.report.half_filled = *decided;
+    }
     context.report("number", 0);
     Result<mesh::HexMesh> mesh = assemble(prepared->lattice, std::move(*cells), options);
     if (!mesh) return mesh.error();

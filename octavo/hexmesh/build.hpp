@@ -8,6 +8,7 @@
 
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
+#include <octavo/hexmesh/half_filled.hpp>
 #include <octavo/hexmesh/options.hpp>
 #include <octavo/mesh/hex_mesh.hpp>
 #include <octavo/mesh/mesh.hpp>
@@ -42,7 +43,8 @@ struct Report {
     std::array<std::uint64_t, octree::max_level + 1> cells_of_level{};  ///< of the mesh
     double smallest_cell = 0, largest_cell = 0;                         ///< sides, in world units
     std::vector<SolidReport> solids;
-    bool overlaps = false;  ///< a solid overlaps itself; only under OverlapPolicy::winding
+    HalfFilled half_filled;  ///< cells that Keep::manifold added and left out
+    bool overlaps = false;   ///< a solid overlaps itself; only under OverlapPolicy::winding
 };
 
 struct Built {

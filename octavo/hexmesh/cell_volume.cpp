@@ -7,6 +7,7 @@
 #include <octavo/classic/crossing.hpp>
 #include <octavo/exact/int128.hpp>
 #include <octavo/hexmesh/cell_volume.hpp>
+#include <octavo/hexmesh/plane_part.hpp>
 
 namespace octavo::hexmesh {
 namespace {
@@ -177,6 +178,10 @@ double sign_of(std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; 
 double filled_part(std::span<const Facet> facets, std::span<const std::uint32_t> list,
                    const octree::Cell& cell, int winding) {
     const exact::Point low = cell.low, high = cell.high();
+    if (list.size() == 1) {
+        const Facet& facet = facets[list[0]];
+        return winding + part_behind(facet, cell) - (is_low_corner_behind(facet, cell) ? 1 : 0);
+    }
     double filled = winding;
     for (const std::uint32_t index : list) {
         const Facet& facet = facets[index];

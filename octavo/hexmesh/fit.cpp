@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <vector>
 
+#include <octavo/hexmesh/buffer_layer.hpp>
 #include <octavo/hexmesh/fit.hpp>
 #include <octavo/mesh/hex_sides.hpp>
 #include <octavo/mesh/materials.hpp>
@@ -262,25 +264,32 @@ Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, c
     const double small = 1e-6 * std::max({extents.x, extents.y, extents.z});
 
     context.report("fit", 0);
-    Fitter fitter(mesh, options);
+    std::optional<Fitter> fitter(std::in_place, mesh, options);
     FitReport report;
-    report.boundary_nodes = fitter.surface().size();
-    std::vector<query::Closest> answers = (*closest)(fitter.surface_positions(), context);
+    std::vector<query::Closest> answers = (*closest)(fitter->surface_positions(), context);
     const Distances before = distances_of(answers, small);
+    report.boundary_nodes = fitter->surface().size();
     report.mean_distance_before = before.mean, report.largest_distance_before = before.largest;
+    // Where the cubes fit as they are, a layer would only make corners worse.
+    if (options.buffer_layer == BufferLayer::where_possible && before.small < report.boundary_nodes &&
+        insert_buffer_layer(mesh)) {
+        report.has_buffer_layer = true;
+        fitter.emplace(mesh, options);
+        answers = (*closest)(fitter->surface_positions(), context);
+    }
     for (int round = 0; round < options.rounds; ++round) {
         if (context.cancelled()) return Context::cancelled_error();
         std::vector<Vec3> targets;
         for (const query::Closest& answer : answers) targets.push_back(answer.point);
-        fitter.move_surface(targets);
-        fitter.smooth_inside();
+        fitter->move_surface(targets);
+        fitter->smooth_inside();
         context.report("fit", static_cast<double>(round + 1) / (options.rounds + 1));
         // The last rounds only draw nearer.
         answers = (*closest)(
-            round + 3 < options.rounds ? fitter.smoothed(answers) : fitter.surface_positions(), context);
+            round + 3 < options.rounds ? fitter->smoothed(answers) : fitter->surface_positions(), context);
     }
     if (context.cancelled()) return Context::cancelled_error();
-    const Distances after = distances_of((*closest)(fitter.surface_positions(), context), small);
+    const Distances after = distances_of((*closest)(fitter->surface_positions(), context), small);
     report.mean_distance = after.mean, report.largest_distance = after.largest;
     report.nodes_on_surface = after.small;
     mesh.fractions.clear();

@@ -47,6 +47,9 @@ enum class Keep : std::uint8_t {
     /// Those at least half filled: inside or outside is decided for each cell, and a cell on the boundary of several
     /// solids goes to those that fill half of it, or else to the one that fills most. What fitting starts from.
     half,
+    /// As `half`, and cells are added or left out where the boundary would touch itself or fold: what a layer of cells can
+    /// be laid on (buffer_layer.hpp).
+    manifold,
     all,  ///< those outside too
 };
 
@@ -69,7 +72,7 @@ struct Options {
     CurvatureSize curvature = {};
     ProximitySize proximity = {};
     /// Cells that touch a boundary cell are no larger than it, and those that touch these, so many times. One layer
-    /// keeps larger cells off the boundary under Keep::half.
+    /// keeps larger cells off the boundary under Keep::half and Keep::manifold.
     int layers = 0;
     octree::Contact balance = octree::Contact::edge;
     Keep keep = Keep::touched;

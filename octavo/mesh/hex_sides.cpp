@@ -79,6 +79,46 @@ struct Joints {
     }
 };
 
+/// Drops sides that meet two halves, and these: what a layer of cells has where a large side of the boundary under it
+/// meets two smaller ones.
+void drop_halved(const HexMesh& mesh, std::vector<HexSide>& sides) {
+    std::vector<std::pair<std::uint64_t, NodeIndex>> middles;
+    for (const EdgeHangingNode& hanging : mesh.edge_hanging)
+        middles.push_back({pair_of(hanging.masters[0], hanging.masters[1]), hanging.node});
+    std::sort(middles.begin(), middles.end());
+    constexpr NodeIndex none = ~NodeIndex{0};
+    const auto middle = [&](NodeIndex a, NodeIndex b) {
+        const auto at =
+            std::lower_bound(middles.begin(), middles.end(), std::pair(pair_of(a, b), NodeIndex{0}));
+        return at != middles.end() && at->first == pair_of(a, b) ? at->second : none;
+    };
+    std::vector<std::pair<std::uint64_t, std::size_t>> by_diagonal;
+    for (std::size_t i = 0; i < sides.size(); ++i) by_diagonal.push_back({diagonal_of(sides[i].corners), i});
+    std::sort(by_diagonal.begin(), by_diagonal.end());
+    const auto find = [&](const std::array<NodeIndex, 4>& corners) {
+        const std::uint64_t diagonal = diagonal_of(corners);
+        auto at =
+            std::lower_bound(by_diagonal.begin(), by_diagonal.end(), std::pair(diagonal, std::size_t{0}));
+        for (; at != by_diagonal.end() && at->first == diagonal; ++at)
+            if (have_same_corners(corners, sides[at->second].corners)) return at->second;
+        return sides.size();
+    };
+    std::vector<bool> dropped(sides.size(), false);
+    for (std::size_t i = 0; i < sides.size(); ++i)
+        for (std::size_t k = 0; k < 2; ++k) {
+            const auto c = [&](std::size_t j) { return sides[i].corners[(j + k) % 4]; };
+            const NodeIndex low = middle(c(0), c(1)), high = middle(c(2), c(3));
+            if (low == none || high == none) continue;
+            const std::size_t first = find({c(0), low, high, c(3)}), second = find({low, c(1), c(2), high});
+            if (first < sides.size() && second < sides.size())
+                dropped[i] = dropped[first] = dropped[second] = true;
+        }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < sides.size(); ++i)
+        if (!dropped[i]) sides[kept++] = sides[i];
+    sides.resize(kept);
+}
+
 }  // namespace
 
 std::vector<HexSide> unshared_sides(const HexMesh& mesh) {
@@ -120,6 +160,7 @@ BoundarySides boundary_sides(const HexMesh& mesh) {
         else if (!joints.is_larger(side))
             result.sides.push_back(side);
     }
+    if (!mesh.is_octree()) drop_halved(mesh, result.sides);
     for (const std::uint8_t count : quarters) result.partly_covered += count > 0 && count < 4;
     return result;
 }

@@ -11,7 +11,8 @@
 //
 // Two cells of one size share a side with the same four corners. A larger cell and four smaller ones share none, but the
 // node in the middle of the larger side hangs, and its masters name both: the larger side by its corners, each
-// smaller one by a master and the hanging node at opposite corners. What is left is boundary. No coordinate is looked
+// smaller one by a master and the hanging node at opposite corners. In a layer of cells a larger side may meet two halves:
+// the middles of two opposite edges hang. What is left is boundary. No coordinate is looked
 // at, so the mesh may be fitted to a surface or conforming. Cost: one sort of all sides, about 0.6 µs a cell.
 
 namespace octavo::mesh {

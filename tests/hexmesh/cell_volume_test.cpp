@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstdint>
-#include <numeric>
 #include <random>
 #include <vector>
 
@@ -98,6 +97,36 @@ double expected_part(const std::array<Point, 4>& tetrahedron, const Cell& cell) 
     return static_cast<double>(cpp_rational(volume / (side * side * side)));
 }
 
+/// The facets that meet the open cell: those with a part of positive area when clipped to it, in exact rationals, that
+/// does not lie in a wall.
+std::vector<std::uint32_t> met_by(const Cell& cell, const std::vector<classic::Facet>& facets) {
+    std::vector<std::uint32_t> met;
+    for (std::uint32_t i = 0; i < facets.size(); ++i) {
+        Face face;
+        for (const auto& corner : facets[i].corner) face.push_back({corner[0], corner[1], corner[2]});
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<int>(axis);
+            for (const auto& [bound, sign] : {std::pair(cell.low[a], 1), std::pair(cell.high()[a], -1)}) {
+                std::vector<Face> clipped = cut({face}, axis, bound, sign);
+                if (!clipped.empty() && clipped.back().size() == 1) clipped.pop_back();
+                face = clipped.empty() ? Face{} : clipped[0];
+            }
+        }
+        // A convex piece meets the open cell when the mean of its corners does.
+        RationalPoint sum{};
+        for (const RationalPoint& p : face)
+            for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += p[axis];
+        const cpp_rational count(face.size());
+        bool inside = !face.empty();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<int>(axis);
+            inside = inside && sum[axis] > count * cell.low[a] && sum[axis] < count * cell.high()[a];
+        }
+        if (inside) met.push_back(i);
+    }
+    return met;
+}
+
 /// The winding number of the displaced low corner, by stepping there from beyond the universe.
 int winding_at(const std::vector<classic::Facet>& facets, Point p) {
     int winding = 0;
@@ -125,7 +154,7 @@ TEST(FilledPart, IsTheExactPartOfTetrahedraOnTheWallsOfCells) {
     std::mt19937 random(1);
     constexpr std::int32_t step = 32;
     int partly = 0;
-    for (int round = 0; round < 1200; ++round) {
+    for (int round = 0; round < 800; ++round) {
         std::array<Point, 4> t;
         const auto coordinate = [&] {
             return static_cast<std::int32_t>(random() % 9) * step / (1 + round % 2);
@@ -134,8 +163,6 @@ TEST(FilledPart, IsTheExactPartOfTetrahedraOnTheWallsOfCells) {
         if (volume6(t) == 0) continue;
         if (volume6(t) < 0) std::swap(t[0], t[1]);
         const std::vector<classic::Facet> facets = facets_of_tetrahedron(t);
-        std::vector<std::uint32_t> all(facets.size());
-        std::iota(all.begin(), all.end(), 0u);
         const int level = octree::max_level - 2 + round % 2;
         const std::int32_t side = octree::cell_side(level);
         const Cell cell{
@@ -144,14 +171,15 @@ TEST(FilledPart, IsTheExactPartOfTetrahedraOnTheWallsOfCells) {
             level};
         const double expected = expected_part(t, cell);
         partly += expected > 0 && expected < 1;
-        ASSERT_NEAR(filled_part(facets, all, cell, winding_at(facets, cell.low)), expected, 1e-13) << round;
+        const std::vector<std::uint32_t> list = met_by(cell, facets);
+        ASSERT_NEAR(filled_part(facets, list, cell, winding_at(facets, cell.low)), expected, 1e-13) << round;
     }
-    EXPECT_GT(partly, 200);
+    EXPECT_GT(partly, 130);
 }
 
 TEST(FilledPart, IsTheExactPartOfTetrahedraInGeneralPosition) {
     std::mt19937 random(2);
-    for (int round = 0; round < 600; ++round) {
+    for (int round = 0; round < 400; ++round) {
         std::uniform_int_distribution<std::int32_t> place(0, round % 2 ? 3000 : exact::universe_side - 1);
         std::array<Point, 4> t;
         for (Point& p : t) p = {place(random), place(random), place(random)};
@@ -159,11 +187,46 @@ TEST(FilledPart, IsTheExactPartOfTetrahedraInGeneralPosition) {
         const int level = round % 2 ? octree::max_level - 5 : 3;
         const Cell cell =
             octree::Cell::of(octree::CellKey::at({place(random), place(random), place(random)}, level));
-        std::vector<std::uint32_t> all{0, 1, 2, 3};
-        const double part = filled_part(forwards, all, cell, winding_at(forwards, cell.low));
+        const double part =
+            filled_part(forwards, met_by(cell, forwards), cell, winding_at(forwards, cell.low));
         // A tetrahedron inside out counts negatively.
         ASSERT_NEAR(part, expected_part(t, cell), 1e-11) << round;
     }
+}
+
+/// Facets many times larger than the cell, so that each is nearly always alone; thin slopes included.
+TEST(FilledPart, IsTheExactPartBehindASingleFacet) {
+    std::mt19937 random(3);
+    int alone = 0;
+    for (int round = 0; round < 320; ++round) {
+        constexpr std::int32_t middle = exact::universe_side / 2;
+        const int level = 4 + round % 16;
+        const std::int32_t side = octree::cell_side(level);
+        // Three corners whose plane passes near the cell, at slopes from 1 to 2^−24, and an apex behind them.
+        std::uniform_int_distribution<std::int32_t> small(-(side >> random() % 8) - 1,
+                                                          (side >> random() % 8) + 1);
+        const std::int32_t far = std::min(middle / 2, 64 * side);
+        std::array<Point, 4> t{{{middle - far, middle - far, middle + small(random)},
+                                {middle + far, middle - far + small(random), middle + small(random)},
+                                {middle + small(random), middle + far, middle + small(random)},
+                                {middle, middle, random() % 2 ? middle - far : middle + far}}};
+        const auto turn = random() % 3;
+        for (Point& p : t) p = turn == 0 ? p : turn == 1 ? Point{p.y, p.z, p.x} : Point{p.z, p.x, p.y};
+        if (volume6(t) == 0) continue;
+        if (volume6(t) < 0) std::swap(t[0], t[1]);
+        const std::vector<classic::Facet> facets = facets_of_tetrahedron(t);
+        const Cell cell =
+            octree::Cell::of(octree::CellKey::at({middle - static_cast<std::int32_t>(random() % 2),
+                                                  middle - static_cast<std::int32_t>(random() % 2),
+                                                  middle - static_cast<std::int32_t>(random() % 2)},
+                                                 level));
+        const std::vector<std::uint32_t> list = met_by(cell, facets);
+        alone += list.size() == 1;
+        ASSERT_NEAR(filled_part(facets, list, cell, winding_at(facets, cell.low)), expected_part(t, cell),
+                    1e-14)
+            << round;
+    }
+    EXPECT_GT(alone, 100);
 }
 
 }  // namespace

@@ -17,11 +17,13 @@
 #include <unistd.h>
 
 #include <octavo/hexmesh/build.hpp>
+#include <octavo/hexmesh/fit.hpp>
 #include <octavo/hexmesh/to_polyhedra.hpp>
 #include <octavo/io/abaqus.hpp>
 #include <octavo/io/leaf_list.hpp>
 #include <octavo/io/openfoam.hpp>
 #include <octavo/io/p8est.hpp>
+#include <octavo/mesh/hex_sides.hpp>
 #include <octavo/mesh/shapes.hpp>
 
 #include "hexmesh/folder.hpp"
@@ -197,7 +199,7 @@ std::map<mesh::NodeIndex, Vec3> solve_patch_test(const mesh::HexMesh& mesh,
     tail += "*STEP\n*STATIC\n*BOUNDARY\n";
     std::array<char, 80> line;
     for (const mesh::NodeIndex node : boundary) {
-        if (node >= mesh.nodes.size()) continue;
+        if (node >= mesh.node_count()) continue;
         const Vec3 u = field(mesh.position(node));
         for (int axis = 0; axis < 3; ++axis) {
             std::snprintf(line.data(), line.size(), "%u,%d,%d,%.12g\n", node + 1, axis + 1, axis + 1,
@@ -261,6 +263,39 @@ TEST(WriteAbaqus, PassesThePatchTestInCalculix) {
     for (const auto& [node, u] : solve_patch_test(cracked, boundary, field))
         crack = std::max(crack, length(u - field(cracked.position(node))));
     EXPECT_GT(crack, 1e-6);
+}
+
+TEST(WriteAbaqus, PassesThePatchTestOnAFittedMeshWithALayer) {
+    if (!is_installed("ccx")) GTEST_SKIP() << "CalculiX (ccx) is not installed";
+    const mesh::Mesh solid = mesh::icosphere(1, 8);
+    Options options{.precision = 0.25, .layers = 1, .keep = Keep::manifold};
+    options.boxes = {{{{-2, -2, -2}, {2, 2, 0.1}}, 0.125}};
+    Result<Built> built = build(std::span(&solid, 1), options);
+    ASSERT_TRUE(built);
+    const std::size_t hanging = built->mesh.edge_hanging.size();
+    const Result<FitReport> fitted = fit(built->mesh, std::span(&solid, 1));
+    ASSERT_TRUE(fitted && fitted->has_buffer_layer);
+    ASSERT_GT(built->mesh.edge_hanging.size(), hanging + 10) << "large cells of the layer meet smaller ones";
+    const mesh::HexMesh& mesh = built->mesh;
+    std::set<mesh::NodeIndex> boundary;
+    for (const mesh::HexSide& side : mesh::boundary_sides(mesh).sides)
+        boundary.insert(side.corners.begin(), side.corners.end());
+    for (const auto& h : mesh.edge_hanging)
+        if (boundary.erase(h.node)) boundary.insert(h.masters.begin(), h.masters.end());
+    Affine field;
+    field.m = {{{0, 1e-3, 2e-3, 0}, {3e-3, 0, -1e-3, 0}, {1e-3, 4e-3, 0, 0}}};
+    const auto worst = [&](const mesh::HexMesh& solved) {
+        const auto found = solve_patch_test(solved, boundary, field);
+        EXPECT_EQ(found.size(), mesh.node_count());
+        double error = 0;
+        for (const auto& [node, u] : found) error = std::max(error, length(u - field(mesh.position(node))));
+        return error;
+    };
+    // The file holds seven digits of displacements up to 5e-3.
+    EXPECT_LE(worst(mesh), 1e-9);
+    mesh::HexMesh cracked = mesh;
+    cracked.edge_hanging.clear();
+    EXPECT_GT(worst(cracked), 1e-6);
 }
 
 TEST(WriteLeafList, HasOneLineACell) {
