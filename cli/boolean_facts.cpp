@@ -44,7 +44,7 @@ boolean::Options BooleanOutput::evaluation() const {
     return options;
 }
 
-void add_boolean_options(CLI::App* verb, BooleanOutput& options) {
+void add_boolean_options(Verb* verb, BooleanOutput& options) {
     verb->add_option("-o,--output", options.output,
                      "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")
         ->required()

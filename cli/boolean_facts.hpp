@@ -3,12 +3,11 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include <octavo/boolean/evaluate.hpp>
 
 #include "output.hpp"
 #include "session.hpp"
+#include "verb.hpp"
 
 // What the verbs of exact set operations have in common: options, writing the result, and what they tell about it.
 
@@ -20,7 +19,7 @@ struct BooleanOutput {
     boolean::Options evaluation() const;
 };
 
-void add_boolean_options(CLI::App* verb, BooleanOutput& options);
+void add_boolean_options(Verb* verb, BooleanOutput& options);
 
 /// Writes the result in the settled format and puts its facts into the session.
 Result<ExitCode> write_boolean(Session& session, const Context& context, const boolean::Evaluated& evaluated,

@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 // The command line's definitions as plain data, for whatever is generated from them: help, man page, shell completion.
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace octavo::cli {
 

@@ -44,7 +44,7 @@ OptionCheck number_between(double least, double most) {
     };
 }
 
-CLI::Option* take_one_of(CLI::Option* option, const std::vector<std::string>& words) {
+Option* take_one_of(Option* option, const std::vector<std::string>& words) {
     std::string choices, sentence;
     for (std::size_t i = 0; i < words.size(); ++i) {
         choices += (i ? "|" : "") + words[i];

@@ -2,18 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "verb.hpp"
 
-// Checks of option values that say in words what is wanted and what was given; an empty string is approval, as CLI11
-// has it.
+// Checks of option values that say in words what is wanted and what was given.
 
 namespace octavo::cli {
-
-using OptionCheck = std::function<std::string(const std::string&)>;
 
 /// A positive, finite number; not-a-number is neither.
 std::string check_positive(const std::string& text);
@@ -25,6 +21,6 @@ OptionCheck whole_number(std::int64_t least, std::int64_t most);
 OptionCheck number_between(double least, double most);
 
 /// The option takes one of these words; help and shell completion show them.
-CLI::Option* take_one_of(CLI::Option* option, const std::vector<std::string>& words);
+Option* take_one_of(Option* option, const std::vector<std::string>& words);
 
 }  // namespace octavo::cli

@@ -10,8 +10,8 @@
 
 namespace octavo::cli {
 
-CLI::Option* add_point_query_options(CLI::App* verb, PointQueryOptions& options, const std::string& models,
-                                     const std::string& columns) {
+Option* add_point_query_options(Verb* verb, PointQueryOptions& options, const std::string& models,
+                                const std::string& columns) {
     verb->add_option("MODEL", options.model, models)->required()->type_name("FILE");
     verb->add_option("POINTS", options.points, "The points: csv, xyz, npy or ply; - is stdin")
         ->required()
@@ -20,7 +20,7 @@ CLI::Option* add_point_query_options(CLI::App* verb, PointQueryOptions& options,
                      "Where " + columns +
                          " go: csv, npy or ply; by default csv on stdout, or with --json into its object")
         ->type_name("FILE");
-    CLI::Option* open = take_one_of(
+    Option* open = take_one_of(
         verb->add_option("--open", options.open, "An open surface: reject it, or close it and go by winding"),
         {"reject", "winding"});
     verb->add_option("--format", options.model_format, "Format of MODEL, instead of by its extension")

@@ -23,8 +23,8 @@ struct PointQueryOptions {
 };
 
 /// Adds MODEL, POINTS and the options of both and of the output, whose columns are `columns`; returns `--open`.
-CLI::Option* add_point_query_options(CLI::App* verb, PointQueryOptions& options, const std::string& models,
-                                     const std::string& columns);
+Option* add_point_query_options(Verb* verb, PointQueryOptions& options, const std::string& models,
+                                const std::string& columns);
 
 /// Where answers go and how, before any work is done.
 struct AnswerOutput {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "definitions.hpp"
@@ -77,11 +78,11 @@ bool names_json(int argc, const char* const* argv) {
 
 }  // namespace
 
-Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
-    app_.set_version_flag("--version", std::string("octavo ") + OCTAVO_VERSION);
-    app_.require_subcommand(1);
-    app_.footer(footer);
-    app_.formatter(std::make_shared<HelpFormatter>());
+Program::Program() : app_(std::make_unique<CLI::App>("Exact solid modelling on octrees.", "octavo")) {
+    app_->set_version_flag("--version", std::string("octavo ") + OCTAVO_VERSION);
+    app_->require_subcommand(1);
+    app_->footer(footer);
+    app_->formatter(std::make_shared<HelpFormatter>());
 
     add_info(*this);
     add_check(*this);
@@ -104,49 +105,52 @@ Program::Program() : app_("Exact solid modelling on octrees.", "octavo") {
     add_man(*this);
 }
 
-CLI::App* Program::verb(const std::string& name, const std::string& group, const std::string& summary,
-                        Run run) {
-    CLI::App* verb = app_.add_subcommand(name, summary);
+Program::~Program() = default;
+
+std::string Program::notes() const { return app_->get_footer(); }
+
+Verb* Program::verb(const std::string& name, const std::string& group, const std::string& summary, Run run) {
+    CLI::App* verb = app_->add_subcommand(name, summary);
     verb->group(group);
     verb->footer(verb_footer);
     verb->callback([this, name, run] {
         session_.command = name;
         chosen_ = run;
     });
-    add_common_options(verb);
-    return verb;
+    add_common_options(verbs_.emplace_back(verb));
+    return &verbs_.back();
 }
 
-void Program::add_common_options(CLI::App* verb) {
+void Program::add_common_options(Verb& verb) {
     CommonOptions& options = session_.options;
     const std::string group = "Common options";
-    verb->add_flag("--json", options.json, "Print one JSON object on stdout, also when it fails")
+    verb.add_flag("--json", options.json, "Print one JSON object on stdout, also when it fails")
         ->group(group);
-    verb->add_flag("-q,--quiet", options.quiet, "Print errors only")->group(group);
-    verb->add_option("--threads", options.threads,
-                     "Threads to use; 0 is all, the result is the same for any number")
+    verb.add_flag("-q,--quiet", options.quiet, "Print errors only")->group(group);
+    verb.add_option("--threads", options.threads,
+                    "Threads to use; 0 is all, the result is the same for any number")
         ->check(whole_number(0, 1024))
         ->type_name("N")
         ->capture_default_str()
         ->group(group);
     take_one_of(
-        verb->add_option("--progress", options.progress, "Progress on stderr; auto is a bar on a terminal"),
+        verb.add_option("--progress", options.progress, "Progress on stderr; auto is a bar on a terminal"),
         {"auto", "bar", "plain", "none"})
         ->group(group);
-    take_one_of(verb->add_option("--color", options.color, "Colour in messages; auto is on a terminal"),
+    take_one_of(verb.add_option("--color", options.color, "Colour in messages; auto is on a terminal"),
                 {"auto", "always", "never"})
         ->group(group);
 }
 
 int Program::main(int argc, const char* const* argv) {
     try {
-        app_.parse(argc, argv);
+        app_->parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help and --version
-        return app_.exit(success);
+        return app_->exit(success);
     } catch (const CLI::ParseError& error) {
         session_.options.json = session_.options.json || names_json(argc, argv);
-        for (const CLI::App* verb : app_.get_subcommands()) session_.command = verb->get_name();
-        return session_.finish(session_.usage_error(sentence_of(error, app_, argc, argv)));
+        for (const CLI::App* verb : app_->get_subcommands()) session_.command = verb->get_name();
+        return session_.finish(session_.usage_error(sentence_of(error, *app_, argc, argv)));
     }
     try {
         return session_.finish(chosen_(session_));

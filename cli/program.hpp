@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <functional>
+#include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "session.hpp"
+#include "verb.hpp"
 
 // The command line as one tree of definitions: parsing, --help, the man page and shell completion are all made from
 // it. Each verb is one file `verb_NAME.cpp` that adds itself with `Program::verb`.
@@ -16,21 +17,25 @@ namespace octavo::cli {
 class Program {
   public:
     Program();
+    ~Program();
 
     using Run = std::function<Result<ExitCode>(Session&)>;
 
-    /// Adds a verb; options go to the returned App. `run` is called once the command line is parsed.
-    CLI::App* verb(const std::string& name, const std::string& group, const std::string& summary, Run run);
+    /// Adds a verb; options go to what is returned. `run` is called once the command line is parsed.
+    Verb* verb(const std::string& name, const std::string& group, const std::string& summary, Run run);
 
-    const CLI::App& app() const { return app_; }
+    const CLI::App& app() const { return *app_; }
+    /// What is said below the help of all verbs: formats and exit codes.
+    std::string notes() const;
 
     /// Parses, runs the chosen verb and returns the exit code.
     int main(int argc, const char* const* argv);
 
   private:
-    void add_common_options(CLI::App* verb);
+    void add_common_options(Verb& verb);
 
-    CLI::App app_;
+    std::unique_ptr<CLI::App> app_;
+    std::deque<Verb> verbs_;
     Session session_;
     Run chosen_;
 };

@@ -97,7 +97,7 @@ Result<ExitCode> evaluate(Session& session, const BooleanOptions& options, Opera
 
 void add_operation(Program& program, const char* name, const char* summary, Operation operation) {
     const auto options = std::make_shared<BooleanOptions>();
-    CLI::App* verb = program.verb(name, "Edit", summary, [options, operation](Session& session) {
+    Verb* verb = program.verb(name, "Edit", summary, [options, operation](Session& session) {
         return evaluate(session, *options, operation);
     });
     verb->add_option("FILES", options->operands, "Closed meshes, two or more")->required()->type_name("FILE");

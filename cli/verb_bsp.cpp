@@ -70,8 +70,8 @@ Result<ExitCode> make_bsp(Session& session, const BspArguments& arguments) {
 
 void add_bsp(Program& program) {
     const auto arguments = std::make_shared<BspArguments>();
-    CLI::App* verb = program.verb("bsp", "Trees", "Make the BSP-octree of a solid, exactly, or a mesh of one",
-                                  [arguments](Session& session) { return make_bsp(session, *arguments); });
+    Verb* verb = program.verb("bsp", "Trees", "Make the BSP-octree of a solid, exactly, or a mesh of one",
+                              [arguments](Session& session) { return make_bsp(session, *arguments); });
     verb->add_option("FILE", arguments->input, "A closed mesh (- is stdin), or a BSP-octree (.bso)")
         ->required()
         ->type_name("FILE");
@@ -80,15 +80,17 @@ void add_bsp(Program& program) {
             "The BSP-octree to write (.bso; - is stdout), or a mesh of it; without it only facts are told")
         ->type_name("FILE");
     verb->add_option("--planes", arguments->planes, "Most planes of a leaf under --stop few-planes")
-        ->check(CLI::Range(1, 1000))
-        ->type_name("N");
-    verb->add_option("--stop", arguments->stop, "When a cell is a leaf: few-planes or common-point")
-        ->check(CLI::IsMember({"few-planes", "common-point"}))
-        ->type_name("RULE");
+        ->check(whole_number(1, 1000))
+        ->type_name("N")
+        ->capture_default_str();
+    take_one_of(verb->add_option("--stop", arguments->stop,
+                                 "When a cell is a leaf: few planes, or faces with a common point"),
+                {"few-planes", "common-point"});
     verb->add_option("--depth", arguments->depth,
                      "Cells of this level are leaves, however many planes they have")
-        ->check(CLI::Range(0, 26))
-        ->type_name("N");
+        ->check(whole_number(0, 26))
+        ->type_name("N")
+        ->capture_default_str();
     verb->add_option("--from", arguments->format, "Format of the input, instead of by its extension")
         ->type_name("FORMAT");
 }

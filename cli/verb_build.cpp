@@ -75,8 +75,8 @@ Result<ExitCode> build(Session& session, const BuildOptions& options) {
 
 void add_build(Program& program) {
     const auto options = std::make_shared<BuildOptions>();
-    CLI::App* verb = program.verb("build", "Trees", "Build the BP-octree of a solid: nested convex envelopes",
-                                  [options](Session& session) { return build(session, *options); });
+    Verb* verb = program.verb("build", "Trees", "Build the BP-octree of a solid: nested convex envelopes",
+                              [options](Session& session) { return build(session, *options); });
     verb->add_option("FILE", options->input, "A mesh (- is stdin), or a CSG tree (.csg): its polyhedron")
         ->required()
         ->type_name("FILE");

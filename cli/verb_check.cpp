@@ -33,9 +33,8 @@ Result<ExitCode> check(Session& session, const CheckOptions& options) {
 
 void add_check(Program& program) {
     const auto options = std::make_shared<CheckOptions>();
-    CLI::App* verb =
-        program.verb("check", "Inspect", "Tell whether a mesh is a solid, and if not, why and where",
-                     [options](Session& session) { return check(session, *options); });
+    Verb* verb = program.verb("check", "Inspect", "Tell whether a mesh is a solid, and if not, why and where",
+                              [options](Session& session) { return check(session, *options); });
     verb->add_option("FILE", options->input, "The mesh; - is stdin")->required()->type_name("FILE");
     verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
         ->check(check_model_format)

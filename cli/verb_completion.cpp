@@ -148,12 +148,12 @@ std::string completion(const std::string& shell, const Definitions& verbs) {
 
 void add_completion(Program& program) {
     const auto shell = std::make_shared<std::string>();
-    CLI::App* verb = program.verb("completion", "Setting up", "Print a completion script for a shell",
-                                  [&program, shell](Session& session) {
-                                      session.text = completion(*shell, definitions_of(program.app()));
-                                      session.result = {{"shell", *shell}, {"script", session.text}};
-                                      return ExitCode::ok;
-                                  });
+    Verb* verb = program.verb("completion", "Setting up", "Print a completion script for a shell",
+                              [&program, shell](Session& session) {
+                                  session.text = completion(*shell, definitions_of(program.app()));
+                                  session.result = {{"shell", *shell}, {"script", session.text}};
+                                  return ExitCode::ok;
+                              });
     take_one_of(verb->add_option("SHELL", *shell, "The shell: bash, zsh or fish")->required(),
                 {"bash", "zsh", "fish"});
 }

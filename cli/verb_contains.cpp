@@ -123,7 +123,7 @@ Result<ExitCode> contains(Session& session, const PointQueryOptions& options) {
 
 void add_contains(Program& program) {
     const auto options = std::make_shared<PointQueryOptions>();
-    CLI::App* verb =
+    Verb* verb =
         program.verb("contains", "Analyse", "Tell for each point whether it is inside, on or outside a solid",
                      [options](Session& session) { return contains(session, *options); });
     add_point_query_options(

@@ -105,8 +105,8 @@ Result<ExitCode> convert(Session& session, const ConvertOptions& options) {
 
 void add_convert(Program& program) {
     const auto options = std::make_shared<ConvertOptions>();
-    CLI::App* verb = program.verb("convert", "Edit", "Write a model in another format",
-                                  [options](Session& session) { return convert(session, *options); });
+    Verb* verb = program.verb("convert", "Edit", "Write a model in another format",
+                              [options](Session& session) { return convert(session, *options); });
     verb->add_option(
             "IN", options->input,
             "A mesh (- is stdin), a CSG tree (.csg), an octree (.oct): its black cells as a mesh, or a "
@@ -127,7 +127,7 @@ void add_convert(Program& program) {
     take_one_of(verb->add_option("--unit", options->unit,
                                  "Unit of length to state in 3mf; that of IN, or millimeter, by default"),
                 {"micron", "millimeter", "centimeter", "inch", "foot", "meter"});
-    CLI::Option* level =
+    Option* level =
         verb->add_option("--level", options->level,
                          "For .bpo: write the envelopes of this level instead of the exact triangles")
             ->check(whole_number(0, bp_octree::max_depth))

@@ -132,10 +132,10 @@ Result<ExitCode> distance(Session& session, const DistanceOptions& options) {
 
 void add_distance(Program& program) {
     const auto options = std::make_shared<DistanceOptions>();
-    CLI::App* verb = program.verb(
-        "distance", "Analyse", "Tell for each point its signed distance, and what of the surface is nearest",
-        [options](Session& session) { return distance(session, *options); });
-    CLI::Option* open = add_point_query_options(
+    Verb* verb = program.verb("distance", "Analyse",
+                              "Tell for each point its signed distance, and what of the surface is nearest",
+                              [options](Session& session) { return distance(session, *options); });
+    Option* open = add_point_query_options(
         verb, *options,
         "A closed mesh, a CSG tree (.csg), the black cells of an octree (.oct), or a BP-octree (.bpo)",
         "distance, x, y, z and triangle");
@@ -144,7 +144,7 @@ void add_distance(Program& program) {
     verb->add_option("--level", options->level,
                      "For .bpo: lower bounds by the envelopes of this level, 0 within; needs only the file's "
                      "beginning")
-        ->check(CLI::Range(0, bp_octree::max_depth))
+        ->check(whole_number(0, bp_octree::max_depth))
         ->type_name("L")
         ->excludes(open);
 }

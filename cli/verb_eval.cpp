@@ -119,9 +119,8 @@ Result<ExitCode> eval(Session& session, const EvalOptions& options) {
 
 void add_eval(Program& program) {
     const auto options = std::make_shared<EvalOptions>();
-    CLI::App* verb =
-        program.verb("eval", "Edit", "Evaluate a set expression, or an OpenSCAD .csg tree, exactly",
-                     [options](Session& session) { return eval(session, *options); });
+    Verb* verb = program.verb("eval", "Edit", "Evaluate a set expression, or an OpenSCAD .csg tree, exactly",
+                              [options](Session& session) { return eval(session, *options); });
     verb->add_option(
             "EXPRESSION", options->expression,
             "A .csg file, or names joined by | or + (union), & or * (intersection), - (difference), ^ "

@@ -214,17 +214,15 @@ std::string check_picture(const std::string& path) {
 }
 
 template <class Parse>
-CLI::Validator checked_by(const Parse& parse, const std::string& wanted) {
-    return CLI::Validator(
-        [parse, wanted](const std::string& text) { return parse(text) ? std::string() : wanted; }, "");
+OptionCheck checked_by(const Parse& parse, const std::string& wanted) {
+    return [parse, wanted](const std::string& text) { return parse(text) ? std::string() : wanted; };
 }
 
-void add_size_options(CLI::App* verb, HexmeshOptions& options) {
-    CLI::Option* level =
-        verb->add_option("--level", options.level,
-                         "Cells on surfaces are about 1/2^N of the longest side; 7 by default")
-            ->check(whole_number(0, octree::max_level))
-            ->type_name("N");
+void add_size_options(Verb* verb, HexmeshOptions& options) {
+    Option* level = verb->add_option("--level", options.level,
+                                     "Cells on surfaces are about 1/2^N of the longest side; 7 by default")
+                        ->check(whole_number(0, octree::max_level))
+                        ->type_name("N");
     verb->add_option("-p,--precision", options.precision,
                      "Cells on surfaces are no larger than this, in the model's units")
         ->check(check_positive)
@@ -258,26 +256,26 @@ void add_size_options(CLI::App* verb, HexmeshOptions& options) {
 
 void add_hexmesh(Program& program) {
     const auto options = std::make_shared<HexmeshOptions>();
-    CLI::App* verb = program.verb("hexmesh", "Simulation", "Mesh solids with hexahedra for a solver",
-                                  [options](Session& session) { return make_hexmesh(session, *options); });
+    Verb* verb = program.verb("hexmesh", "Simulation", "Mesh solids with hexahedra for a solver",
+                              [options](Session& session) { return make_hexmesh(session, *options); });
     verb->add_option("FILES", options->inputs,
                      "Closed meshes, OpenSCAD trees (.csg) or octrees: one solid each")
         ->required()
         ->type_name("FILE");
     verb->add_option("-o,--output", options->output, hexmesh_outputs_help)->type_name("FILE");
     add_size_options(verb, *options);
-    CLI::Option* balance =
+    Option* balance =
         take_one_of(verb->add_option("--balance", options->balance,
                                      "Cells that differ by one level at most: at a face, edge or corner"),
                     {"face", "edge", "corner"});
-    CLI::Option* keep = take_one_of(
+    Option* keep = take_one_of(
         verb->add_option(
             "--keep", options->keep,
             "Cells that belong to the mesh: touched by a solid, at least half filled, these with a "
             "boundary that is a manifold (with --fit), or all"),
         {"touched", "half", "manifold", "all"});
-    CLI::Option* conforming = verb->add_flag("--conforming", options->conforming,
-                                             "No hanging nodes: all hexahedra fit, by templates");
+    Option* conforming = verb->add_flag("--conforming", options->conforming,
+                                        "No hanging nodes: all hexahedra fit, by templates");
     verb->add_flag("--fit", options->fit, "Draw the boundary onto the surface; every cell stays valid");
     balance->excludes(conforming);
     keep->excludes(conforming);

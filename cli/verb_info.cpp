@@ -222,7 +222,7 @@ Result<ExitCode> info(Session& session, const InfoOptions& options) {
 
 void add_info(Program& program) {
     const auto options = std::make_shared<InfoOptions>();
-    CLI::App* verb =
+    Verb* verb =
         program.verb("info", "Inspect", "Tell the facts about a model: counts, volume, inertia, topology",
                      [options](Session& session) { return info(session, *options); });
     verb->add_option(

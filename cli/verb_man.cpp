@@ -46,7 +46,7 @@ std::string roff_verb(const VerbDefinition& verb) {
     return text;
 }
 
-std::string man_page(const CLI::App& app) {
+std::string man_page(const Program& program) {
     std::string page = fmt::format(
         ".TH OCTAVO 1 \"\" \"octavo {}\" \"User commands\"\n"
         ".SH NAME\noctavo \\- exact solid modelling on octrees\n"
@@ -58,8 +58,8 @@ std::string man_page(const CLI::App& app) {
         "decision is made "
         "in exact integer arithmetic.\n.SH VERBS\n",
         OCTAVO_VERSION);
-    for (const VerbDefinition& verb : definitions_of(app)) page += roff_verb(verb);
-    page += ".SH NOTES\n.nf\n" + roff(app.get_footer()) + "\n.fi\n";
+    for (const VerbDefinition& verb : definitions_of(program.app())) page += roff_verb(verb);
+    page += ".SH NOTES\n.nf\n" + roff(program.notes()) + "\n.fi\n";
     return page;
 }
 
@@ -67,7 +67,7 @@ std::string man_page(const CLI::App& app) {
 
 void add_man(Program& program) {
     program.verb("man", "Setting up", "Print the man page, octavo(1), as roff", [&program](Session& session) {
-        session.text = man_page(program.app());
+        session.text = man_page(program);
         session.result = {{"page", session.text}};
         return ExitCode::ok;
     });

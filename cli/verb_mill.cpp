@@ -81,8 +81,8 @@ Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
 
 void add_mill(Program& program) {
     const auto arguments = std::make_shared<MillArguments>();
-    CLI::App* verb = program.verb("mill", "Edit", "Subtract a tool at thousands of poses, exactly",
-                                  [arguments](Session& session) { return mill(session, *arguments); });
+    Verb* verb = program.verb("mill", "Edit", "Subtract a tool at thousands of poses, exactly",
+                              [arguments](Session& session) { return mill(session, *arguments); });
     verb->add_option("WORK", arguments->work, "The workpiece, a closed mesh")->required()->type_name("FILE");
     verb->add_option("--tool", arguments->tool, "The tool, a closed mesh about its own origin")
         ->required()

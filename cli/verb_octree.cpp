@@ -122,18 +122,18 @@ Result<ExitCode> make_octree(Session& session, const OctreeOptions& options) {
 
 void add_octree(Program& program) {
     const auto options = std::make_shared<OctreeOptions>();
-    CLI::App* verb = program.verb("octree", "Trees", "Build the exact octree of a solid",
-                                  [options](Session& session) { return make_octree(session, *options); });
+    Verb* verb = program.verb("octree", "Trees", "Build the exact octree of a solid",
+                              [options](Session& session) { return make_octree(session, *options); });
     verb->add_option("FILE", options->input, "A closed mesh, or a CSG tree (.csg of OpenSCAD); - is stdin")
         ->required()
         ->type_name("FILE");
     verb->add_option("-o,--output", options->output,
                      "The octree to write: oct, or vtu or htg for ParaView; - is stdout")
         ->type_name("FILE");
-    CLI::Option* depth = verb->add_option("--depth", options->depth, "The deepest level, 0 to 21")
-                             ->check(whole_number(0, octree::max_level))
-                             ->type_name("N")
-                             ->capture_default_str();
+    Option* depth = verb->add_option("--depth", options->depth, "The deepest level, 0 to 21")
+                        ->check(whole_number(0, octree::max_level))
+                        ->type_name("N")
+                        ->capture_default_str();
     verb->add_option("--precision", options->precision, "Cells no larger than this, in the model's units")
         ->check(check_positive)
         ->type_name("LENGTH")

@@ -137,8 +137,8 @@ Result<ExitCode> render_model(Session& session, const RenderOptions& options) {
 
 void add_render(Program& program) {
     const auto options = std::make_shared<RenderOptions>();
-    CLI::App* verb = program.verb("render", "Inspect", "Draw a picture of a model, whole or cut open",
-                                  [options](Session& session) { return render_model(session, *options); });
+    Verb* verb = program.verb("render", "Inspect", "Draw a picture of a model, whole or cut open",
+                              [options](Session& session) { return render_model(session, *options); });
     verb->add_option("MODEL", options->input, "A mesh (- is stdin), a CSG tree (.csg), or an octree (.oct)")
         ->required()
         ->type_name("FILE");

@@ -56,8 +56,8 @@ Result<ExitCode> repair(Session& session, const RepairOptions& options) {
 
 void add_repair(Program& program) {
     const auto options = std::make_shared<RepairOptions>();
-    CLI::App* verb = program.verb("repair", "Edit", "Mend what can be mended without guessing, and list it",
-                                  [options](Session& session) { return repair(session, *options); });
+    Verb* verb = program.verb("repair", "Edit", "Mend what can be mended without guessing, and list it",
+                              [options](Session& session) { return repair(session, *options); });
     verb->add_option("IN", options->input, "The mesh to mend; - is stdin")->required()->type_name("FILE");
     verb->add_option("-o,--output", options->output,
                      "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")

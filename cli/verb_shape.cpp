@@ -117,8 +117,8 @@ Result<ExitCode> make_shape(Session& session, const ShapeOptions& options) {
 
 void add_shape(Program& program) {
     const auto options = std::make_shared<ShapeOptions>();
-    CLI::App* verb = program.verb("shape", "Make", "Generate a solid to try things on",
-                                  [options](Session& session) { return make_shape(session, *options); });
+    Verb* verb = program.verb("shape", "Make", "Generate a solid to try things on",
+                              [options](Session& session) { return make_shape(session, *options); });
     verb->add_option("NAME", options->name, "One of " + names())
         ->required()
         ->check(check_name)

@@ -49,8 +49,8 @@ Result<ExitCode> stats(Session& session, const std::string& input) {
 
 void add_stats(Program& program) {
     const auto input = std::make_shared<std::string>();
-    CLI::App* verb = program.verb("stats", "Trees", "Tell what is inside an octree file",
-                                  [input](Session& session) { return stats(session, *input); });
+    Verb* verb = program.verb("stats", "Trees", "Tell what is inside an octree file",
+                              [input](Session& session) { return stats(session, *input); });
     verb->add_option("FILE", *input,
                      "An octree (.oct; - is stdin), a BP-octree (.bpo) or a BSP-octree (.bso)")
         ->required()
