@@ -9,6 +9,7 @@
 
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/classify.hpp>
+#include <octavo/hexmesh/covered_sides.hpp>
 #include <octavo/hexmesh/half_filled.hpp>
 #include <octavo/hexmesh/number.hpp>
 #include <octavo/mesh/measure.hpp>
@@ -241,6 +242,31 @@ void count_cells(const mesh::HexMesh& mesh, Report& report) {
     }
 }
 
+bool is_by_half(Keep keep) { return keep == Keep::half || keep == Keep::manifold; }
+
+/// Measures the solids and, where that is asked for, says which boundary cells are in and which are out. For
+/// Keep::manifold larger cells are split until smaller ones cover none of their sides in part.
+Result<ClassifiedCells> decided_cells(const Prepared& prepared, ClassifiedCells cells, const Options& options,
+                                      Report& report, const Context& context) {
+    constexpr int most_rounds = 16;  // a few are usual
+    for (int round = 0;; ++round) {
+        report.tree_cells = cells.keys.size();
+        report.solids = prepared.reports;
+        measure_solids(prepared.lattice, cells, report.solids);
+        if (!is_by_half(options.keep)) return cells;
+        const Result<HalfFilled> decided = decide_by_half(cells, options.keep);
+        if (!decided) return decided.error();
+        report.half_filled = *decided;
+        if (options.keep != Keep::manifold || round == most_rounds) return cells;
+        const std::vector<CellKey> covered = cut_off_in_the_middle(cells);
+        if (covered.empty()) return cells;
+        Result<ClassifiedCells> finer = classify(
+            prepared.facets, octree::balance(split(cells.keys, covered), options.balance), options, context);
+        if (!finer) return finer;
+        cells = std::move(*finer);
+    }
+}
+
 /// Keeps the cells that belong to the mesh, and numbers their nodes.
 Result<mesh::HexMesh> assemble(const exact::Lattice& lattice, ClassifiedCells cells, const Options& options) {
     std::vector<std::uint8_t> kept;
@@ -280,8 +306,7 @@ Result<mesh::HexMesh> assemble(const exact::Lattice& lattice, ClassifiedCells ce
 Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, const Context& context) {
     if (options.layers < 0 || options.layers > 100)
         return Error{ErrorCode::bad_input, "the number of layers must be 0 to 100", {}};
-    const bool by_half = options.keep == Keep::half || options.keep == Keep::manifold;
-    if (by_half && options.fractions == Fractions::skip)
+    if (is_by_half(options.keep) && options.fractions == Fractions::skip)
         return Error{
             ErrorCode::bad_input, "to keep cells that are half filled, fractions must be computed", {}};
     Result<Prepared> prepared = prepare(solids, options);
@@ -291,18 +316,12 @@ Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, 
     const bool overlaps = !cells->overlap.empty();
     if (overlaps && options.overlaps == OverlapPolicy::reject) return overlap_error(*cells, solids.size());
     if (context.cancelled()) return Context::cancelled_error();
-    prepared->facets = {};
 
     Built built;
-    built.report.tree_cells = cells->keys.size();
     built.report.overlaps = overlaps;
-    built.report.solids = std::move(prepared->reports);
-    measure_solids(prepared->lattice, *cells, built.report.solids);
-    if (by_half) {
-        const Result<HalfFilled> decided = decide_by_half(*cells, options.keep);
-        if (!decided) return decided.error();
-        built.report.half_filled = *decided;
-    }
+    cells = decided_cells(*prepared, std::move(*cells), options, built.report, context);
+    if (!cells) return cells.error();
+    prepared->facets = {};
     context.report("number", 0);
     Result<mesh::HexMesh> mesh = assemble(prepared->lattice, std::move(*cells), options);
     if (!mesh) return mesh.error();

@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
+#include <octavo/hexmesh/find_leaf.hpp>
 #include <octavo/hexmesh/half_filled.hpp>
 
 namespace octavo::hexmesh {
@@ -85,20 +85,12 @@ class ManifoldBoundary {
     Corner corner_at(Point p) const {
         Corner corner{};
         for (unsigned i = 0; i < 8; ++i) {
-            corner.leaves[i] = leaf_at({p.x - (i & 1 ? 0 : 1), p.y - (i & 2 ? 0 : 1), p.z - (i & 4 ? 0 : 1)});
+            const Point inside{p.x - (i & 1 ? 0 : 1), p.y - (i & 2 ? 0 : 1), p.z - (i & 4 ? 0 : 1)};
+            corner.leaves[i] = find_leaf(cells_.keys, inside).value_or(nowhere);
             if (corner.leaves[i] != nowhere && kept_[corner.leaves[i]]) corner.in |= 1U << i;
         }
         return corner;
     }
-    std::size_t leaf_at(Point p) const {
-        for (int axis = 0; axis < 3; ++axis)
-            if (p[axis] < 0 || p[axis] >= exact::universe_side) return nowhere;
-        const CellKey key = CellKey::at(p, octree::max_level);
-        const auto leaf = std::partition_point(cells_.keys.begin(), cells_.keys.end(),
-                                               [&](CellKey cell) { return cell.last_descendant() < key; });
-        return static_cast<std::size_t>(leaf - cells_.keys.begin());
-    }
-
     /// Corners of a cell, and middles of its edges and sides, where smaller cells may have corners.
     void look_round(std::size_t leaf) {
         const Point low = cells_.keys[leaf].low();

@@ -47,8 +47,8 @@ enum class Keep : std::uint8_t {
     /// Those at least half filled: inside or outside is decided for each cell, and a cell on the boundary of several
     /// solids goes to those that fill half of it, or else to the one that fills most. What fitting starts from.
     half,
-    /// As `half`, and cells are added or left out where the boundary would touch itself or fold: what a layer of cells can
-    /// be laid on (buffer_layer.hpp).
+    /// As `half`, and cells are added or left out where the boundary would touch itself or fold, and larger cells are split
+    /// where smaller ones would cover a part of their side: what a layer of cells can be laid on (buffer_layer.hpp).
     manifold,
     all,  ///< those outside too
 };

@@ -2,17 +2,22 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <octavo/boolean/expression.hpp>
 #include <octavo/hexmesh/buffer_layer.hpp>
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/fit.hpp>
 #include <octavo/hexmesh/quality.hpp>
+#include <octavo/io/openscad_csg.hpp>
 #include <octavo/mesh/hex_sides.hpp>
 #include <octavo/mesh/shapes.hpp>
+
+#include "places.hpp"
 
 namespace octavo::hexmesh {
 namespace {
@@ -95,6 +100,28 @@ TEST(KeepManifold, HasABoundaryThatNeverTouchesItself) {
             EXPECT_EQ(built->mesh.cell_count(), plain->mesh.cell_count() + half.added - half.left_out);
         }
     EXPECT_GT(changed, 10u) << "or nothing was tested";
+}
+
+TEST(KeepManifold, LeavesNoSideCoveredInPart) {
+    // Flat sides on the grid with large cells, a rib between with small ones.
+    const auto file =
+        io::read_csg(std::string(tests::source_folder) + "/docs/examples/bracket.csg", {.faceted = true});
+    ASSERT_TRUE(file);
+    const auto bracket = boolean::evaluate(file->expression);
+    ASSERT_TRUE(bracket);
+    const std::vector<mesh::Mesh> solids{bracket->mesh};
+    Options options{.precision = 1, .largest = 2, .layers = 1, .keep = Keep::half};
+    const Result<Built> half = build(solids, options);
+    options.keep = Keep::manifold;
+    Result<Built> manifold = build(solids, options);
+    ASSERT_TRUE(half && manifold);
+    EXPECT_GT(mesh::boundary_sides(half->mesh).partly_covered, 4u) << "or nothing was tested";
+    EXPECT_EQ(mesh::boundary_sides(manifold->mesh).partly_covered, 0u);
+    EXPECT_EQ(manifold->report.largest_cell, 2) << "not all cells were split";
+    for (const SolidReport& solid : manifold->report.solids)
+        EXPECT_NEAR(solid.filled_volume / solid.exact_volume, 1, 1e-9);
+    EXPECT_TRUE(insert_buffer_layer(manifold->mesh));
+    expect_closed_manifold(manifold->mesh);
 }
 
 TEST(BufferLayer, KeepsTheBoundaryAndTheVolume) {
