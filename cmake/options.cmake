@@ -22,4 +22,9 @@ endif()
 if(OCTAVO_SANITIZE)
   add_compile_options(-fsanitize=${OCTAVO_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${OCTAVO_SANITIZE})
+  if(OCTAVO_SANITIZE MATCHES undefined)
+    # g++ 12 tests the address of a thread-local variable for null by the flags of the addition that makes it, which
+    # the linker relaxes to one that sets none: false alarms. A null pointer that is followed crashes all the same.
+    add_compile_options(-fno-sanitize=null)
+  endif()
 endif()
