@@ -80,6 +80,24 @@ TEST(PlyText, NamesTheLineOfWhatIsWrong) {
     expect_refused(replaced(square, "face 2", "face 0"), "ply", 0, "has no facets");
 }
 
+TEST(PlyText, RefusesVerticesWithoutCoordinatesHoweverTheyAreAnnounced) {
+    const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const std::string format : {"ascii", "binary_little_endian"})
+        for (const std::string vertices :
+             {"element vertex 100\n", "element vertex 100\nproperty list uchar float x\n",
+              "element vertex 4294967295\n"}) {
+            SCOPED_TRACE(format + ' ' + vertices);
+            const std::string row =
+                format == "ascii" ? "3 0 1 2\n" : std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+            const Result<ReadMesh> read =
+                read_text("ply\nformat " + format + " 1.0\n" + vertices + faces + row, "ply");
+            ASSERT_FALSE(read);
+            EXPECT_EQ(read.error().code, ErrorCode::bad_input);
+        }
+    // Other elements without properties are nothing at all.
+    expect_square(replaced(square, "element face", "element nothing 1000000000000\nelement face"));
+}
+
 TEST(PlyHeader, NamesTheLineOfWhatIsWrong) {
     expect_refused(replaced(square, "ascii", "ebcdic"), "ply", 2, "none of ascii");
     expect_refused(replaced(square, "format ascii 1.0\n", ""), "ply", 9, "names no format");
