@@ -4,6 +4,7 @@
 #   tools/setup_debian.sh            to build and run
 #   tools/setup_debian.sh --tests    also to run the test suite and the style checks
 #   tools/setup_debian.sh --bench    also the systems that the benchmarks compare with
+#   tools/setup_debian.sh --fuzz     also the compiler that builds the fuzzers
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config libtbb-dev zlib1g-dev libpugixml-dev nlohmann-json3-dev libcli11-dev
@@ -14,6 +15,7 @@ for option in "$@"; do
                    calculix-ccx python3-meshio libp4est-dev libopenmpi-dev) ;;
         --bench) packages+=(libbenchmark-dev libopenvdb-dev libcgal-dev libembree-dev libboost-iostreams-dev
                    libp4est-dev libopenmpi-dev) ;;
+        --fuzz) packages+=(clang-14 libclang-rt-14-dev) ;;
         *) echo "setup_debian.sh: unknown option $option" >&2; exit 2 ;;
     esac
 done

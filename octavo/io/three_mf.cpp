@@ -44,17 +44,16 @@ class Assembler {
         std::vector<ThreeMfPlacement> build = (*part)->build;
         if (build.empty()) build = objects_of_no_other(**part);
         for (const ThreeMfPlacement& item : build) {
-            Result<const Object*> object = resolve(item, root, 0);
+            Result<const Object*> object = resolve(item, (*part)->name, 0);
             if (!object) return object.error();
             if ((*object)->data->type == "support" || (*object)->data->type == "solidsupport") {
                 ++supports_;
                 continue;
             }
             triangles_ += (*object)->triangles;
-            if (triangles_ > options_.max_triangles)
-                return Error{ErrorCode::limit,
-                             "has more than " + std::to_string(options_.max_triangles) + " triangles",
-                             {}};
+            if (triangles_ > options_.max_triangles) return more_than_allowed("triangles");
+            vertices_ += (*object)->vertices;
+            if (vertices_ > options_.max_triangles) return more_than_allowed("vertices");
             if (std::optional<Error> trouble = place(**object, item.transform)) return *trouble;
         }
         if (supports_ > 0)
@@ -67,9 +66,13 @@ class Assembler {
     struct Object {
         const ThreeMfObject* data = nullptr;
         std::vector<std::pair<const Object*, Affine>> components;
-        std::uint64_t triangles = 0;  ///< with all components, saturated
+        std::uint64_t triangles = 0, vertices = 0;  ///< with all components, saturated
         bool complete = false;
     };
+
+    Error more_than_allowed(const char* what) const {
+        return {ErrorCode::limit, "has more than " + std::to_string(options_.max_triangles) + " " + what, {}};
+    }
 
     std::string root_part() const {
         if (const ZipEntry* relationships = archive_.find("_rels/.rels")) {
@@ -84,6 +87,9 @@ class Assembler {
     }
 
     Result<const ThreeMfPart*> part_named(const std::string& name) {
+        // Known parts come first: looking through the archive for each of very many items takes for ever.
+        const auto as_named = parts_.find(name.starts_with('/') ? name.substr(1) : name);
+        if (as_named != parts_.end()) return &as_named->second;
         const ZipEntry* const entry = archive_.find(name);
         if (!entry) return bad("has no part " + name);
         const auto known = parts_.find(entry->name);
@@ -117,6 +123,7 @@ class Assembler {
             return bad("the part " + (*part)->name + " has no object " + std::to_string(placement.object));
         object.data = &*data;
         object.triangles = data->triangles.size();
+        object.vertices = data->vertices.size();
         for (const ThreeMfPlacement& component : data->components) {
             Result<const Object*> below = resolve(component, (*part)->name, depth + 1);
             if (!below) return below.error();
@@ -124,6 +131,7 @@ class Assembler {
             if ((*below)->triangles == 0) continue;
             object.components.emplace_back(*below, component.transform);
             object.triangles = std::min(object.triangles + (*below)->triangles, options_.max_triangles + 1);
+            object.vertices = std::min(object.vertices + (*below)->vertices, options_.max_triangles + 1);
         }
         object.complete = true;
         return &object;
@@ -173,7 +181,7 @@ class Assembler {
     const Context& context_;
     std::map<std::string, ThreeMfPart> parts_;
     std::map<std::pair<std::string, std::uint32_t>, Object> objects_;
-    std::uint64_t triangles_ = 0;
+    std::uint64_t triangles_ = 0, vertices_ = 0;
     std::size_t supports_ = 0;
     FileMesh result_;
 };

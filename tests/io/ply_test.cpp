@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include <octavo/io/ply.hpp>
 
@@ -96,6 +97,47 @@ TEST(PlyText, RefusesVerticesWithoutCoordinatesHoweverTheyAreAnnounced) {
         }
     // Other elements without properties are nothing at all.
     expect_square(replaced(square, "element face", "element nothing 1000000000000\nelement face"));
+}
+
+/// A file of random elements and properties, as nobody would write them but the grammar allows, and a random body.
+std::string random_file(std::mt19937& random) {
+    const auto one_of = [&](const std::vector<std::string>& words) {
+        return words[std::uniform_int_distribution<std::size_t>(0, words.size() - 1)(random)];
+    };
+    const auto chance = [&](int in) { return std::uniform_int_distribution<int>(1, in)(random) == 1; };
+    const std::string format = one_of({"ascii", "binary_little_endian", "binary_big_endian"});
+    std::string text = "ply\nformat " + format + " 1.0\n";
+    const std::vector<std::string> types{"uchar", "char", "short", "uint", "int", "float", "double"};
+    for (const std::string& element : {one_of({"vertex", "vertex", "edge"}), one_of({"face", "tristrips"})}) {
+        text += "element " + element + ' ' + one_of({"3", "4", "5", "1", "0", "100", "4294967295", "1e15"}) +
+                '\n';
+        if (element == "vertex" && !chance(6))
+            for (const char* axis : {"x", "y", "z"}) text += "property " + one_of(types) + ' ' + axis + '\n';
+        if (element != "vertex" && !chance(6))
+            text += "property list " + one_of(types) + ' ' + one_of(types) + " vertex_indices\n";
+        while (chance(5)) text += "property " + one_of(types) + " more\n";
+    }
+    text += "end_header\n";
+    const std::string bytes_of_a_face("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+    for (int i = 0; i < 60; ++i)
+        text += format == "ascii" ? one_of({"0 ", "1 ", "2 ", "3 0 1 2\n", "3 0 1 2\n"})
+                                  : one_of({std::string(1, '\0'), "\1", "\2", bytes_of_a_face});
+    return text;
+}
+
+TEST(PlyHeader, WhateverItSaysTheMeshIsSound) {
+    std::mt19937 random(7);
+    int meshes = 0;
+    for (int round = 0; round < 30000; ++round) {
+        const std::string text = random_file(random);
+        const Result<ReadMesh> read = read_text(text, "ply");
+        if (!read) continue;
+        ++meshes;
+        for (const mesh::Triangle& triangle : read->mesh.triangles)
+            for (const mesh::VertexIndex corner : triangle)
+                ASSERT_LT(corner, read->mesh.vertices.size()) << text;
+    }
+    EXPECT_GT(meshes, 100) << "hardly any file was good, so hardly anything was tested";
 }
 
 TEST(PlyHeader, NamesTheLineOfWhatIsWrong) {

@@ -184,6 +184,28 @@ TEST(ThreeMf, RefusesCirclesAndExplosionsOfComponents) {
     EXPECT_EQ(deep.error().code, ErrorCode::limit);
 }
 
+TEST(ThreeMf, RefusesExplosionsOfVerticesThatFewTrianglesUse) {
+    // A hundred vertices and one triangle, eleven times.
+    std::string object = "<object id=\"1\"><mesh><vertices>", copies;
+    for (int i = 0; i < 100; ++i)
+        object += "<vertex x=\"" + std::to_string(i) + "\" y=\"" + std::to_string(i * i) + "\" z=\"0\"/>";
+    object += "</vertices><triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh></object>";
+    for (int i = 0; i < 11; ++i) copies += "<component objectid=\"1\"/>";
+    const std::string nested = "<object id=\"2\"><components>" + copies + "</components></object>";
+    ReadOptions options;
+    options.format = "3mf";
+    for (const std::string& file : {file_of(object + nested, "<item objectid=\"2\"/>"),
+                                    file_of(object, replaced(copies, "component", "item"))}) {
+        options.max_triangles = 1000;
+        const Result<ReadMesh> read = read_mesh(bytes_of(file), options);
+        ASSERT_FALSE(read);
+        EXPECT_EQ(read.error().code, ErrorCode::limit);
+        EXPECT_THAT(read.error().sentence, testing::HasSubstr("1000 vertices"));
+        options.max_triangles = 1100;
+        EXPECT_TRUE(read_mesh(bytes_of(file), options));
+    }
+}
+
 TEST(ThreeMf, RefusesBombs) {
     const std::string bomb = file_of(object_1 + std::string(20'000'000, ' '), "<item objectid=\"1\"/>");
     EXPECT_LT(bomb.size(), 200'000u);
