@@ -5,7 +5,6 @@
 #include <octavo/exact/orient.hpp>
 #include <octavo/exact/plane.hpp>
 #include <octavo/mesh/disjoint_sets.hpp>
-#include <octavo/mesh/orient2d.hpp>
 #include <octavo/mesh/repair_steps.hpp>
 #include <octavo/mesh/shells.hpp>
 #include <octavo/mesh/topology.hpp>
@@ -141,71 +140,6 @@ RepairDone drop_inner_walls(RepairSoup& soup) {
     }
     RepairDone done;
     drop(soup, dropped, done);
-    return done;
-}
-
-namespace {
-
-/// Exactly collinear, in the doubles of the input.
-bool has_no_area(const RepairSoup& soup, const Triangle& t) {
-    const Vec3 a = soup.vertices[t[0]], b = soup.vertices[t[1]], c = soup.vertices[t[2]];
-    return orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == 0 &&
-           orient2d({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) == 0 &&
-           orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
-}
-
-/// The side of a collinear facet that holds the opposite vertex: the one between its lexicographic ends.
-std::size_t long_side(const RepairSoup& soup, const Triangle& t) {
-    const auto less = [&](std::size_t i, std::size_t j) {
-        const Vec3 p = soup.vertices[t[i]], q = soup.vertices[t[j]];
-        return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
-    };
-    for (std::size_t middle = 0; middle < 3; ++middle) {
-        const std::size_t i = (middle + 1) % 3, j = (middle + 2) % 3;
-        if ((less(i, middle) && less(middle, j)) || (less(j, middle) && less(middle, i))) return i;
-    }
-    return 0;  // two corners at one place: welding has left none
-}
-
-bool edge_exists(const EdgeTable& edges, VertexIndex a, VertexIndex b) {
-    const std::array<VertexIndex, 2> ends{std::min(a, b), std::max(a, b)};
-    return std::binary_search(edges.ends.begin(), edges.ends.end(), ends);
-}
-
-}  // namespace
-
-RepairDone flip_needles(RepairSoup& soup) {
-    RepairDone done;
-    // Each flip gives area to one facet that had none, so the rounds end; a chain of needles takes one a link.
-    for (bool flipped = true; flipped;) {
-        flipped = false;
-        const EdgeTable edges = edges_of(soup);
-        std::vector<bool> touched(soup.triangles.size());
-        std::set<std::array<VertexIndex, 2>> added;
-        for (FaceIndex needle = 0; needle < soup.triangles.size(); ++needle) {
-            const Triangle t = soup.triangles[needle];
-            if (touched[needle] || !has_no_area(soup, t)) continue;
-            const std::size_t k = long_side(soup, t);
-            const SideIndex side = 3 * needle + static_cast<SideIndex>(k);
-            const auto sides = edges.sides_of(edges.edge_of_side[side]);
-            if (sides.size() != 2) continue;
-            const SideIndex other = sides[0] == side ? sides[1] : sides[0];
-            const FaceIndex neighbour = other / 3;
-            if (touched[neighbour] || has_no_area(soup, soup.triangles[neighbour])) continue;
-            const VertexIndex middle = t[(k + 2) % 3], apex = third_vertex(soup, other);
-            const std::array<VertexIndex, 2> edge{std::min(middle, apex), std::max(middle, apex)};
-            if (middle == apex || edge_exists(edges, middle, apex) || added.contains(edge)) continue;
-            // The neighbour runs from → to along the side and on to its apex; it is cut from there to the middle.
-            const VertexIndex from = soup.triangles[neighbour][other % 3];
-            const VertexIndex to = soup.triangles[neighbour][next_side(other) % 3];
-            soup.triangles[neighbour] = {from, middle, apex};
-            soup.triangles[needle] = {middle, to, apex};
-            touched[needle] = touched[neighbour] = flipped = true;
-            added.insert(edge);
-            ++done.count;
-            done.faces.push_back(soup.origin[needle]);
-        }
-    }
     return done;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <octavo/base/check.hpp>
+#include <octavo/mesh/collinear.hpp>
 #include <octavo/mesh/triangulate.hpp>
 
 namespace octavo::mesh {
@@ -23,32 +24,6 @@ std::array<int, 3> axes_by_closeness(Vec3 normal) {
     std::stable_sort(axes.begin(), axes.end(),
                      [&](int a, int b) { return std::fabs(normal[a]) > std::fabs(normal[b]); });
     return axes;
-}
-
-/// Brings all positions into the range where orient2d is exact: by a power of two, which loses nothing. What
-/// is 2^-900 of the largest coordinate and less becomes 0.
-bool normalise(std::span<Vec3> positions) {
-    double largest = 0;
-    for (const Vec3& p : positions) {
-        if (!is_finite(p)) return false;
-        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    }
-    constexpr double safe_high = 0x1p500, safe_low = 0x1p-400;
-    if (largest < safe_high && largest > safe_low) {
-        // The usual case still may hold single coordinates that are too small.
-        for (Vec3& p : positions)
-            for (int axis = 0; axis < 3; ++axis)
-                if (std::fabs(p[axis]) < 0x1p-480) p[axis] = 0;
-        return true;
-    }
-    if (largest == 0) return true;
-    const int exponent = 500 - std::ilogb(largest);
-    for (Vec3& p : positions)
-        for (int axis = 0; axis < 3; ++axis) {
-            p[axis] = std::ldexp(p[axis], exponent);
-            if (std::fabs(p[axis]) < 0x1p-480) p[axis] = 0;
-        }
-    return true;
 }
 
 bool names_a_vertex_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
@@ -76,7 +51,7 @@ Triangulation Triangulator::operator()(std::span<const Vec3> vertices, std::span
     positions_.clear();
     for (const VertexIndex corner : corners) positions_.push_back(vertices[corner]);
     PolygonShape shape = PolygonShape::crossing;
-    if (normalise(positions_)) {
+    if (scale_for_orient2d(positions_)) {
         const Vec3 normal =
             area_vector(std::span(positions_).subspan(contour_begin[0], contour_begin[1] - contour_begin[0]));
         for (const int axis : axes_by_closeness(normal)) {

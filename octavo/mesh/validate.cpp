@@ -5,7 +5,7 @@
 
 #include <octavo/base/grouped.hpp>
 #include <octavo/exact/orient.hpp>
-#include <octavo/mesh/orient2d.hpp>
+#include <octavo/mesh/collinear.hpp>
 #include <octavo/mesh/self_intersection.hpp>
 #include <octavo/mesh/shells.hpp>
 #include <octavo/mesh/snap.hpp>
@@ -67,13 +67,6 @@ std::string sentence_of(ProblemKind kind, std::uint64_t n) {
             return counted(n, "vertex is used by no facet", "vertices are used by no facet");
     }
     return {};
-}
-
-/// Are the three exactly collinear? The doubles are taken as they are.
-bool has_no_area(Vec3 a, Vec3 b, Vec3 c) {
-    return orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == 0 &&
-           orient2d({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) == 0 &&
-           orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
 }
 
 class Validation {
@@ -222,18 +215,13 @@ void Validation::judge_facets() {
     bool area = false;
     for (FaceIndex face = 0; face < triangles_.size(); ++face) {
         const auto [i, j, k] = triangles_[face];
-        if (!exact::collinear(points_[i], points_[j], points_[k])) {
-            area = true;
-            // Only rounding could give area to what has none: rare, but then the file decides.
-            if (!has_no_area(mesh_.vertices[kept_[i]], mesh_.vertices[kept_[j]], mesh_.vertices[kept_[k]]))
-                continue;
+        const bool flat_on_lattice = exact::collinear(points_[i], points_[j], points_[k]);
+        area = area || !flat_on_lattice;
+        // Rounding can also give area to what has none: rare, but then the file decides.
+        if (collinear(mesh_.vertices[kept_[i]], mesh_.vertices[kept_[j]], mesh_.vertices[kept_[k]]))
             ++flat.count, flat.faces.push_back(face);
-        } else if (has_no_area(mesh_.vertices[kept_[i]], mesh_.vertices[kept_[j]],
-                               mesh_.vertices[kept_[k]])) {
-            ++flat.count, flat.faces.push_back(face);
-        } else {
+        else if (flat_on_lattice)
             ++snapped.count, snapped.faces.push_back(face);
-        }
     }
     // Facets with the same vertices meet at the edge of the two lowest; the third tells them apart.
     std::vector<std::pair<VertexIndex, FaceIndex>> at_edge;

@@ -34,6 +34,12 @@ WeldMap group(std::span<const Position> positions) {
     const std::size_t slots = std::bit_ceil(2 * positions.size() + 1);
     std::vector<VertexIndex> table(slots, free_slot);  // new indices
     for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (!(positions[i] == positions[i])) {
+            // What is not a number equals nothing, itself included; in the table, very many would all meet at one slot.
+            map.index[i] = static_cast<VertexIndex>(map.kept.size());
+            map.kept.push_back(static_cast<VertexIndex>(i));
+            continue;
+        }
         std::size_t slot = hash_of(positions[i]) & (slots - 1);
         while (table[slot] != free_slot && !(positions[map.kept[table[slot]]] == positions[i]))
             slot = (slot + 1) & (slots - 1);

@@ -132,6 +132,21 @@ TEST(Repair, ResolvesFacetsWithoutAreaAndKeepsTheSurfaceClosed) {
     }
 }
 
+TEST(Repair, ResolvesLongChainsOfNeedlesAtOnce) {
+    // One facet with area, and a fan of needles beyond its side: each can be flipped only after the one before.
+    constexpr VertexIndex links = 30'000;
+    Mesh mesh;
+    for (VertexIndex i = 0; i <= links; ++i) mesh.vertices.push_back({static_cast<double>(i), 0, 0});
+    mesh.vertices.push_back({0, 1, 0});
+    mesh.triangles.push_back({0, links, links + 1});
+    for (VertexIndex i = 1; i < links; ++i) mesh.triangles.push_back({0, i, i + 1});
+    const Repaired result = repaired(mesh);
+    EXPECT_EQ(result.report.count(RepairKind::flipped_edges), links - 1);
+    EXPECT_EQ(measure(result.mesh).area, measure(mesh).area);
+    const Report after = *validate(result.mesh, {.self_intersections = false});
+    EXPECT_EQ(after.count(ProblemKind::zero_area_facets), 0u);
+}
+
 TEST(Repair, RemovesInnerWallsButNoDoubleSidedSheets) {
     // Two boxes against each other with the wall between them: one box is left.
     Mesh walled = both(box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1}));

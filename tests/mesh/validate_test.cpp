@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -186,6 +187,19 @@ TEST(Validate, CountsDuplicatesAndFacetsWithoutArea) {
     EXPECT_EQ(needles.count(ProblemKind::touching_facets), 2u);
 }
 
+TEST(Validate, SeesAreaAtAnyScale) {
+    // Products of these coordinates underflow or overflow.
+    for (const int exponent : {-960, -700, -570, -481, 505, 640, 900}) {
+        SCOPED_TRACE(exponent);
+        const double scale = std::ldexp(1.0, exponent);
+        Mesh mesh = transform(box({0, 0, 0}, {1, 1, 1}), scaling({scale, scale, scale}));
+        EXPECT_EQ(report_of(mesh).count(ProblemKind::zero_area_facets), 0u);
+        mesh.vertices.push_back({scale / 2, scale / 2, 0});
+        mesh.triangles.push_back({0, 8, 3});
+        EXPECT_EQ(report_of(mesh).count(ProblemKind::zero_area_facets), 1u);
+    }
+}
+
 TEST(Validate, TellsThinFacetsThatTheLatticeFlattens) {
     Mesh mesh = box({0, 0, 0}, {1, 1, 1});
     // Splits the facet (0, 2, 3) by a vertex far less than a lattice unit off its edge 0–3.
@@ -284,6 +298,17 @@ TEST(Validate, RefusesWhatIsNotFinite) {
     ASSERT_FALSE(report.has_value());
     EXPECT_EQ(report.error().code, ErrorCode::bad_input);
     EXPECT_THAT(report.error().sentence, testing::HasSubstr("vertex 3"));
+}
+
+TEST(Validate, RefusesVeryManyNumbersThatAreNoneAtOnce) {
+    const double nan = std::nan("");
+    Mesh mesh = cube();
+    mesh.vertices.insert(mesh.vertices.end(), 400'000, {nan, nan, nan});
+    EXPECT_EQ(report_of(mesh).count(ProblemKind::unused_vertices), 400'000u);
+    mesh.triangles.push_back({0, 1, 300'000});
+    const auto report = validate(mesh);
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::bad_input);
 }
 
 TEST(Validate, DescribesInSentences) {
