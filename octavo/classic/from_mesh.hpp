@@ -23,7 +23,7 @@
 // Guaranteed: volume of black leaves ≤ volume of the snapped solid ≤ black + gray, in exact integers.
 // Cost: one overlap test a pair of facet and cell that meet, about 20 ns; memory: 64 bytes a facet, the lists of one
 // path and the tree at two bits a node.
-// Source: octrees with interior and exterior, López and others (source 004), who expand the colours from seeds cell
+// Source: J. I. López and others, Modelización de sólidos mediante estructura octree, who expand the colours from seeds cell
 // by cell; docs/decisions/0002-colours-by-descent.md says why we do not.
 
 namespace octavo::classic {

@@ -21,8 +21,8 @@ struct ReadOptions {
     /// Name of the format ("stl", "obj", "ply", "off", "3mf", or an extension that assimp knows); empty takes
     /// it from the file's extension, and from the content when that says nothing.
     std::string format;
-    /// A compressed or instanced file may not grow beyond this many triangles (a small 3MF can claim any
-    /// number); more is ErrorCode::limit. The default needs about 7 GB.
+    /// A compressed or instanced file may not grow beyond this many triangles, nor beyond as many vertices (a small 3MF
+    /// can claim any number); more is ErrorCode::limit. The default needs about 7 GB.
     std::uint64_t max_triangles = 200'000'000;
 };
 

@@ -26,32 +26,32 @@
 //
 // A problem is a class with
 //
-//     struct Description;  // a restriction: small and copyable; bulk data lies in the workspace (index
-//     ranges) class Workspace;     // scratch of one path from the root: one growing buffer a level, reused,
-//     see below class Output;        // what is built; see below
+//     struct Description;  // a restriction: small and copyable; bulk data lies in the workspace, by index ranges
+//     class Workspace;     // scratch of one path from the root: one growing buffer a level, reused, see below
+//     class Output;        // what is built; see below
 //
-//     int depth() const;                                   // the level below which nothing is split, ≤ 21
+//     int depth() const;   // the level below which nothing is split, ≤ 21
 //     Workspace make_workspace() const;
 //     Output make_output() const;
-//     Restricted<Description> root(Workspace&) const;      // the universe: a leaf, or split with a
-//     description void restrict_to_children(const Cell& parent, const Description&, Workspace&,
-//                               Children<Description>&) const;   // for each octant: a leaf's colour, or
-//                               split
-//     std::size_t weight(const Description&) const;        // how much work is in it: list or program length
+//     // The universe: a leaf, or split with a description.
+//     Restricted<Description> root(Workspace&) const;
+//     // For each octant a leaf's colour, or split.
+//     void restrict_to_children(const Cell& parent, const Description&, Workspace&,
+//                               Children<Description>&) const;
+//     std::size_t weight(const Description&) const;   // how much work is in it: list or program length
+//     // Copies the cell's bulk data to another workspace.
 //     Description transfer(const Cell&, const Description&, const Workspace& from, Workspace& to) const;
-//                                                          // copies the cell's bulk data to another
-//                                                          workspace
 //
 // and an output one with
 //
-//     void split(const Cell&, const Description&, const Workspace&);    // a node; what lies in it follows
+//     void split(const Cell&, const Description&, const Workspace&);   // a node; what lies in it follows
 //     void leaf(const Cell&, const Restricted<Description>&, const Workspace&);
-//     Node leaves(const Cell& parent, const Children<Description>&, const Workspace&);   // optional: eight
-//                                       // leaves of the last level at once; returns their common colour, or split
-//     void merge(const Cell&, Color);   // the eight octants of the cell, just given, are leaves of one
-//     decided
-//                                       // colour: they and their parent become one leaf
-//     void append(Output&&);            // the output of the cells that follow in Morton order
+//     // Optional: eight leaves of the last level at once; returns their common colour, or split.
+//     Node leaves(const Cell& parent, const Children<Description>&, const Workspace&);
+//     // The eight octants of the cell, just given, are leaves of one decided colour: they and their parent become
+//     // one leaf.
+//     void merge(const Cell&, Color);
+//     void append(Output&&);   // the output of the cells that follow in Morton order
 //
 // Buffers: while the octants of a cell of level L are visited, their descriptions must stay where they are;
 // they belong in the buffer of level L + 1, which the next `restrict_to_children` of a level-L cell may
