@@ -57,7 +57,7 @@ std::optional<Transform> parse_transform(const std::string& text) {
 std::string check_transform(const std::string& text) {
     return parse_transform(text)
                ? ""
-               : "wants FILE:m0,m1,… with 12 numbers (3 rows of 4) or 16 (the last row 0,0,0,1)";
+               : "wants FILE:m0,m1,... with 12 numbers (3 rows of 4) or 16 (the last row 0,0,0,1)";
 }
 
 Result<std::vector<mesh::Mesh>> read_operands(Session& session, const Context& context,
@@ -102,7 +102,7 @@ void add_operation(Program& program, const char* name, const char* summary, Oper
     });
     verb->add_option("FILES", options->operands, "Closed meshes, two or more")->required()->type_name("FILE");
     verb->add_option("--transform", options->transforms,
-                     "FILE:m0,m1,…: moves an operand by a matrix of 12 or 16 numbers, row-major")
+                     "FILE:m0,m1,...: moves an operand by a matrix of 12 or 16 numbers, row-major")
         ->check(check_transform)
         ->type_name("FILE:MATRIX");
     add_boolean_options(verb, options->output);
