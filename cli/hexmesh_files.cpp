@@ -68,8 +68,9 @@ Result<HexmeshFormat> settle_hexmesh_output(Session& session, const std::vector<
 }
 
 bool needs_octants(HexmeshFormat format) {
-    return format != HexmeshFormat::abaqus && format != HexmeshFormat::mfem &&
-           format != HexmeshFormat::gmsh && format != HexmeshFormat::vtu;
+    return format == HexmeshFormat::leaf_list || format == HexmeshFormat::p8est ||
+           format == HexmeshFormat::p8est_30 || format == HexmeshFormat::hyper_tree_grid ||
+           format == HexmeshFormat::octree;
 }
 
 Result<io::WriteReport> write_hexmesh(HexmeshFormat format, const std::string& path,

@@ -104,9 +104,10 @@ class Numberer {
         if (!count_nodes()) return Error{ErrorCode::limit, "the mesh has more than 2^32 - 1 nodes", {}};
         number_corners();
         find_hanging();
-        // Nodes last, when the tree is gone: the peak of memory is here.
+        // Nodes last, when all that they do not need is gone: the peak of memory is here.
         tree_ = CellTree({});
         listed_ = {};
+        first_node_ = {};
         place_nodes();
         return Done{};
     }

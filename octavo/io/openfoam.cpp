@@ -147,6 +147,8 @@ Result<WriteReport> write_openfoam(const std::string& path, const mesh::Polyhedr
     }};
     std::error_code ignored;
     for (const auto& [name, write] : files) {
+        const bool has_levels = mesh.cell_level.size() == mesh.cells;
+        if (!has_levels && std::string_view(name) == "cellLevel") continue;
         Result<Output> output = Output::to_file((part / name).string());
         Status status = Done{};
         if (output) {

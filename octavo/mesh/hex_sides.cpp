@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include <octavo/mesh/hex_sides.hpp>
 
@@ -39,49 +41,49 @@ bool have_same_corners(std::array<NodeIndex, 4> a, std::array<NodeIndex, 4> b) {
 
 /// Pairs of nodes that name the sides between cells of two sizes.
 struct Joints {
-    std::vector<std::uint64_t> larger;  ///< both diagonals of each larger side
-    struct Quarter {
+    /// A diagonal of a larger side, or of a quarter of one.
+    struct Diagonal {
         std::uint64_t diagonal;
-        std::uint32_t side;  ///< which larger one
+        std::uint32_t side;  ///< which larger one: the index of its middle in `face_hanging`
     };
-    std::vector<Quarter> smaller;
+    std::vector<Diagonal> larger, smaller;
 
     explicit Joints(const HexMesh& mesh) {
         for (std::uint32_t i = 0; i < mesh.face_hanging.size(); ++i) {
             const FaceHangingNode& hanging = mesh.face_hanging[i];
-            larger.push_back(pair_of(hanging.masters[0], hanging.masters[3]));
-            larger.push_back(pair_of(hanging.masters[1], hanging.masters[2]));
+            larger.push_back({pair_of(hanging.masters[0], hanging.masters[3]), i});
+            larger.push_back({pair_of(hanging.masters[1], hanging.masters[2]), i});
             for (const NodeIndex master : hanging.masters)
                 smaller.push_back({pair_of(master, hanging.node), i});
         }
-        std::sort(larger.begin(), larger.end());
-        std::sort(smaller.begin(), smaller.end(),
-                  [](const Quarter& a, const Quarter& b) { return a.diagonal < b.diagonal; });
+        const auto by_diagonal = [](const Diagonal& a, const Diagonal& b) { return a.diagonal < b.diagonal; };
+        std::sort(larger.begin(), larger.end(), by_diagonal);
+        std::sort(smaller.begin(), smaller.end(), by_diagonal);
     }
 
-    bool is_larger(const HexSide& side) const {
-        const auto has = [&](std::size_t i) {
-            return std::binary_search(larger.begin(), larger.end(),
-                                      pair_of(side.corners[i], side.corners[i + 2]));
-        };
-        return has(0) && has(1);
+    /// The larger side that this is, or none.
+    const Diagonal* whole(const HexSide& side) const {
+        const Diagonal* const first = find(larger, pair_of(side.corners[0], side.corners[2]));
+        return first && find(larger, pair_of(side.corners[1], side.corners[3])) ? first : nullptr;
     }
     /// The larger side of which this is a quarter, or none.
-    const Quarter* quarter(const HexSide& side) const {
-        for (const std::size_t i : {0U, 1U}) {
-            const std::uint64_t diagonal = pair_of(side.corners[i], side.corners[i + 2]);
-            const auto at =
-                std::lower_bound(smaller.begin(), smaller.end(), diagonal,
-                                 [](const Quarter& q, std::uint64_t value) { return q.diagonal < value; });
-            if (at != smaller.end() && at->diagonal == diagonal) return &*at;
-        }
-        return nullptr;
+    const Diagonal* quarter(const HexSide& side) const {
+        const Diagonal* const first = find(smaller, pair_of(side.corners[0], side.corners[2]));
+        return first ? first : find(smaller, pair_of(side.corners[1], side.corners[3]));
+    }
+
+  private:
+    static const Diagonal* find(const std::vector<Diagonal>& sorted, std::uint64_t diagonal) {
+        const auto at =
+            std::lower_bound(sorted.begin(), sorted.end(), diagonal,
+                             [](const Diagonal& d, std::uint64_t value) { return d.diagonal < value; });
+        return at != sorted.end() && at->diagonal == diagonal ? &*at : nullptr;
     }
 };
 
-/// Drops sides that meet two halves, and these: what a layer of cells has where a large side of the boundary under it
-/// meets two smaller ones.
-void drop_halved(const HexMesh& mesh, std::vector<HexSide>& sides) {
+/// Takes out sides that meet two halves, and these: what a layer of cells has where a large side of the boundary under it
+/// meets two smaller ones. Returns the halves.
+std::vector<InnerSide> take_halved(const HexMesh& mesh, std::vector<HexSide>& sides) {
     std::vector<std::pair<std::uint64_t, NodeIndex>> middles;
     for (const EdgeHangingNode& hanging : mesh.edge_hanging)
         middles.push_back({pair_of(hanging.masters[0], hanging.masters[1]), hanging.node});
@@ -103,25 +105,29 @@ void drop_halved(const HexMesh& mesh, std::vector<HexSide>& sides) {
             if (have_same_corners(corners, sides[at->second].corners)) return at->second;
         return sides.size();
     };
-    std::vector<bool> dropped(sides.size(), false);
+    std::vector<InnerSide> halves;
+    std::vector<bool> taken(sides.size(), false);
     for (std::size_t i = 0; i < sides.size(); ++i)
         for (std::size_t k = 0; k < 2; ++k) {
             const auto c = [&](std::size_t j) { return sides[i].corners[(j + k) % 4]; };
             const NodeIndex low = middle(c(0), c(1)), high = middle(c(2), c(3));
             if (low == none || high == none) continue;
             const std::size_t first = find({c(0), low, high, c(3)}), second = find({low, c(1), c(2), high});
-            if (first < sides.size() && second < sides.size())
-                dropped[i] = dropped[first] = dropped[second] = true;
+            if (first == sides.size() || second == sides.size()) continue;
+            taken[i] = taken[first] = taken[second] = true;
+            halves.push_back({sides[first], sides[i].cell});
+            halves.push_back({sides[second], sides[i].cell});
         }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < sides.size(); ++i)
-        if (!dropped[i]) sides[kept++] = sides[i];
+        if (!taken[i]) sides[kept++] = sides[i];
     sides.resize(kept);
+    return halves;
 }
 
-}  // namespace
-
-std::vector<HexSide> unshared_sides(const HexMesh& mesh) {
+/// Calls `shared(side, other)` for each side that two cells have, from the first of them, and `alone(side)` for the others.
+template <class Shared, class Alone>
+void for_each_side(const HexMesh& mesh, const Shared& shared, const Alone& alone) {
     std::vector<Entry> entries;
     entries.reserve(6 * mesh.cell_count());
     for (CellIndex cell = 0; cell < mesh.cell_count(); ++cell)
@@ -130,24 +136,82 @@ std::vector<HexSide> unshared_sides(const HexMesh& mesh) {
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
         return a.diagonal != b.diagonal ? a.diagonal < b.diagonal : a.cell < b.cell;
     });
-    std::vector<HexSide> alone;
     for (std::size_t i = 0, end = 0; i < entries.size(); i = end) {
         while (end < entries.size() && entries[end].diagonal == entries[i].diagonal) ++end;
         // One or two; more only where sides that differ have a diagonal in common.
         for (std::size_t k = i; k < end; ++k) {
             const HexSide side = side_of(mesh, entries[k].cell, entries[k].side);
-            bool shared = false;
-            for (std::size_t other = i; other < end && !shared; ++other)
-                shared = other != k &&
-                         have_same_corners(side.corners,
-                                           side_of(mesh, entries[other].cell, entries[other].side).corners);
-            if (!shared) alone.push_back(side);
+            std::size_t other = i;
+            while (other < end &&
+                   (other == k ||
+                    !have_same_corners(side.corners,
+                                       side_of(mesh, entries[other].cell, entries[other].side).corners)))
+                ++other;
+            if (other == end)
+                alone(side);
+            else if (k < other)
+                shared(side, entries[other].cell);
         }
     }
-    std::sort(alone.begin(), alone.end(), [](const HexSide& a, const HexSide& b) {
+}
+
+std::vector<HexSide> by_cell(std::vector<HexSide> sides) {
+    std::sort(sides.begin(), sides.end(), [](const HexSide& a, const HexSide& b) {
         return a.cell != b.cell ? a.cell < b.cell : a.side < b.side;
     });
-    return alone;
+    return sides;
+}
+
+/// Larger sides and the quarters of them that smaller cells have.
+class JoinedSides {
+  public:
+    explicit JoinedSides(const HexMesh& mesh)
+        : mesh_(mesh),
+          joints_(mesh),
+          larger_(mesh.face_hanging.size()),
+          quarters_(mesh.face_hanging.size()) {}
+
+    /// False when the side is neither.
+    bool take(const HexSide& side) {
+        if (const Joints::Diagonal* const quarter = joints_.quarter(side)) {
+            quarters_[quarter->side].push_back(side);
+            return true;
+        }
+        if (const Joints::Diagonal* const whole = joints_.whole(side)) {
+            larger_[whole->side] = side;
+            return true;
+        }
+        return false;
+    }
+    void append_to(AllSides& sides) const {
+        for (std::size_t i = 0; i < larger_.size(); ++i) {
+            if (!larger_[i]) continue;
+            CoveredInPart part{*larger_[i], mesh_.face_hanging[i].node, {}};
+            for (const HexSide& quarter : quarters_[i]) {
+                sides.inner.push_back({quarter, part.side.cell});
+                for (std::size_t k = 0; k < 4; ++k)
+                    part.covered[k] =
+                        part.covered[k] || std::find(quarter.corners.begin(), quarter.corners.end(),
+                                                     part.side.corners[k]) != quarter.corners.end();
+            }
+            if (quarters_[i].size() < 4) sides.covered_in_part.push_back(part);
+        }
+    }
+
+  private:
+    const HexMesh& mesh_;
+    Joints joints_;
+    std::vector<std::optional<HexSide>> larger_;  ///< per node in the middle of one
+    std::vector<std::vector<HexSide>> quarters_;
+};
+
+}  // namespace
+
+std::vector<HexSide> unshared_sides(const HexMesh& mesh) {
+    std::vector<HexSide> sides;
+    for_each_side(
+        mesh, [](const HexSide&, CellIndex) {}, [&](const HexSide& side) { sides.push_back(side); });
+    return by_cell(std::move(sides));
 }
 
 BoundarySides boundary_sides(const HexMesh& mesh) {
@@ -155,14 +219,35 @@ BoundarySides boundary_sides(const HexMesh& mesh) {
     std::vector<std::uint8_t> quarters(mesh.face_hanging.size(), 0);
     BoundarySides result;
     for (const HexSide& side : unshared_sides(mesh)) {
-        if (const Joints::Quarter* const quarter = joints.quarter(side))
+        if (const Joints::Diagonal* const quarter = joints.quarter(side))
             ++quarters[quarter->side];
-        else if (!joints.is_larger(side))
+        else if (!joints.whole(side))
             result.sides.push_back(side);
     }
-    if (!mesh.is_octree()) drop_halved(mesh, result.sides);
+    if (!mesh.is_octree()) take_halved(mesh, result.sides);
     for (const std::uint8_t count : quarters) result.partly_covered += count > 0 && count < 4;
     return result;
+}
+
+AllSides all_sides(const HexMesh& mesh) {
+    AllSides sides;
+    JoinedSides joined(mesh);
+    std::vector<HexSide> alone;
+    for_each_side(
+        mesh,
+        [&](const HexSide& side, CellIndex other) {
+            sides.inner.push_back({side, other});
+        },
+        [&](const HexSide& side) {
+            if (!joined.take(side)) alone.push_back(side);
+        });
+    sides.boundary = by_cell(std::move(alone));
+    joined.append_to(sides);
+    if (!mesh.is_octree()) {
+        const std::vector<InnerSide> halves = take_halved(mesh, sides.boundary);
+        sides.inner.insert(sides.inner.end(), halves.begin(), halves.end());
+    }
+    return sides;
 }
 
 }  // namespace octavo::mesh

@@ -23,6 +23,25 @@ struct HexSide {
     std::array<NodeIndex, 4> corners;  ///< counter-clockwise seen from outside the cell
 };
 
+/// A side, or the part of a larger side that it covers, between two cells.
+struct InnerSide {
+    HexSide side;     ///< of the smaller cell, or of either when they are equal
+    CellIndex other;  ///< the cell beyond
+};
+
+/// A larger side that smaller cells cover in part; the rest is boundary.
+struct CoveredInPart {
+    HexSide side;
+    NodeIndex centre;
+    std::array<bool, 4> covered;  ///< per corner, whether the quarter there has a cell beyond
+};
+
+struct AllSides {
+    std::vector<InnerSide> inner;
+    std::vector<HexSide> boundary;  ///< by cell
+    std::vector<CoveredInPart> covered_in_part;
+};
+
 struct BoundarySides {
     std::vector<HexSide> sides;  ///< by cell
     /// Larger sides of which smaller cells cover some quarters and not others. Neither they nor their free quarters
@@ -38,5 +57,8 @@ inline constexpr std::array<std::array<std::uint8_t, 4>, 6> corners_of_side{
 std::vector<HexSide> unshared_sides(const HexMesh& mesh);
 
 BoundarySides boundary_sides(const HexMesh& mesh);
+
+/// Every side of every cell once: as an inner one, as boundary, or as both in parts.
+AllSides all_sides(const HexMesh& mesh);
 
 }  // namespace octavo::mesh

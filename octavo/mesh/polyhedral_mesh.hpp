@@ -32,7 +32,7 @@ struct PolyhedralMesh {
     };
     std::vector<Zone> zones;  ///< disjoint
 
-    std::vector<int> cell_level;  ///< depth of refinement per cell
+    std::vector<int> cell_level;  ///< depth of refinement per cell; empty when they are no octants
 };
 
 }  // namespace octavo::mesh

@@ -41,6 +41,8 @@ TEST_F(Hexmesh, WritesEveryFormat) {
     }
     EXPECT_EQ(octavo("hexmesh gear.ply --level 4 -o case").exit_code, 0);
     EXPECT_TRUE(std::filesystem::exists(path("case/constant/polyMesh/owner")));
+    EXPECT_EQ(octavo("hexmesh gear.ply --level 4 --fit -o fitted_case").exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(path("fitted_case/constant/polyMesh/cellLevel"))) << "no octants";
     EXPECT_EQ(octavo("hexmesh gear.ply --level 4 --conforming -o g.msh").exit_code, 0);
     EXPECT_EQ(read("g.msh").rfind("$MeshFormat", 0), 0u);
     EXPECT_EQ(octavo("hexmesh gear.ply --level 4 --to p8est-30 -o wide.p8est").exit_code, 0);

@@ -110,11 +110,8 @@ TEST(ToPolyhedra, ClosesEveryCellAndKeepsTheVolume) {
     EXPECT_EQ(mesh.zones.size(), 3u);
 }
 
-TEST(WriteOpenFoam, IsAcceptedByCheckMesh) {
-    if (!is_installed("checkMesh")) GTEST_SKIP() << "OpenFOAM's checkMesh is not installed";
-    const Folder folder;
-    const std::string names[] = {"first part", "second"};
-    ASSERT_TRUE(io::write_openfoam(folder.string(), to_polyhedra(graded_mesh().mesh, names)));
+/// What OpenFOAM's checkMesh says about a case.
+std::string check_mesh(const Folder& folder) {
     fs::create_directory(folder / "system");
     std::ofstream(folder / "system/controlDict")
         << "FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }\n"
@@ -129,9 +126,39 @@ TEST(WriteOpenFoam, IsAcceptedByCheckMesh) {
         "WM_PROJECT_DIR=\"${WM_PROJECT_DIR:-/usr/share/openfoam}\" checkMesh -case '" + folder.string() +
         "' -allTopology > '" + (folder / "log").string() + "' 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0);
-    const std::string log = text_of(folder / "log");
+    return text_of(folder / "log");
+}
+
+TEST(WriteOpenFoam, IsAcceptedByCheckMesh) {
+    if (!is_installed("checkMesh")) GTEST_SKIP() << "OpenFOAM's checkMesh is not installed";
+    const Folder folder;
+    const std::string names[] = {"first part", "second"};
+    ASSERT_TRUE(io::write_openfoam(folder.string(), to_polyhedra(graded_mesh().mesh, names)));
+    const std::string log = check_mesh(folder);
     EXPECT_NE(log.find("Mesh OK."), std::string::npos) << log;
     EXPECT_NE(log.find("first_part"), std::string::npos) << log;
+}
+
+/// A ball with cells of two sizes on its surface, drawn to it over a layer.
+Built fitted_ball() {
+    const mesh::Mesh solid = mesh::icosphere(1, 8);
+    Options options{.precision = 0.25, .layers = 1, .keep = Keep::manifold};
+    options.boxes = {{{{-2, -2, -2}, {2, 2, 0.1}}, 0.125}};
+    Result<Built> built = build(std::span(&solid, 1), options);
+    EXPECT_TRUE(built);
+    const std::size_t hanging = built->mesh.edge_hanging.size();
+    const Result<FitReport> fitted = fit(built->mesh, std::span(&solid, 1));
+    EXPECT_TRUE(fitted && fitted->has_buffer_layer);
+    EXPECT_GT(built->mesh.edge_hanging.size(), hanging + 10) << "large cells of the layer meet smaller ones";
+    return std::move(*built);
+}
+
+TEST(WriteOpenFoam, IsAcceptedByCheckMeshWithAFittedLayer) {
+    if (!is_installed("checkMesh")) GTEST_SKIP() << "OpenFOAM's checkMesh is not installed";
+    const Folder folder;
+    ASSERT_TRUE(io::write_openfoam(folder.string(), to_polyhedra(fitted_ball().mesh)));
+    const std::string log = check_mesh(folder);
+    EXPECT_NE(log.find("Mesh OK."), std::string::npos) << log;
 }
 
 TEST(WriteOpenFoam, LeavesNothingBehindWhenItIsCancelled) {
@@ -267,16 +294,8 @@ TEST(WriteAbaqus, PassesThePatchTestInCalculix) {
 
 TEST(WriteAbaqus, PassesThePatchTestOnAFittedMeshWithALayer) {
     if (!is_installed("ccx")) GTEST_SKIP() << "CalculiX (ccx) is not installed";
-    const mesh::Mesh solid = mesh::icosphere(1, 8);
-    Options options{.precision = 0.25, .layers = 1, .keep = Keep::manifold};
-    options.boxes = {{{{-2, -2, -2}, {2, 2, 0.1}}, 0.125}};
-    Result<Built> built = build(std::span(&solid, 1), options);
-    ASSERT_TRUE(built);
-    const std::size_t hanging = built->mesh.edge_hanging.size();
-    const Result<FitReport> fitted = fit(built->mesh, std::span(&solid, 1));
-    ASSERT_TRUE(fitted && fitted->has_buffer_layer);
-    ASSERT_GT(built->mesh.edge_hanging.size(), hanging + 10) << "large cells of the layer meet smaller ones";
-    const mesh::HexMesh& mesh = built->mesh;
+    const Built built = fitted_ball();
+    const mesh::HexMesh& mesh = built.mesh;
     std::set<mesh::NodeIndex> boundary;
     for (const mesh::HexSide& side : mesh::boundary_sides(mesh).sides)
         boundary.insert(side.corners.begin(), side.corners.end());
