@@ -22,7 +22,8 @@ Error unsupported(const std::string& path, std::string sentence) {
     return in_file({ErrorCode::unsupported, std::move(sentence), {}}, path);
 }
 
-Result<io::ReadMesh> polyhedron_of_csg(Session& session, const Context& context, const std::string& path) {
+Result<io::ReadMesh> polyhedron_of_csg(Session& session, const Context& context, const std::string& path,
+                                       const SurfaceOptions& options) {
     Result<io::CsgFile> file = read_csg(session, context, path, {.faceted = true});
     if (!file) return std::move(file).error();
     Result<boolean::Evaluated> evaluated =
@@ -32,7 +33,7 @@ Result<io::ReadMesh> polyhedron_of_csg(Session& session, const Context& context,
     io::ReadMesh read;
     read.format = "csg";
     read.mesh = std::move(evaluated->mesh);
-    read.mesh.sources.clear();
+    if (!options.keep_sources) read.mesh.sources.clear();
     read.polygons = read.mesh.triangles.size();
     return read;
 }
@@ -119,10 +120,10 @@ Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const s
 }
 
 Result<io::ReadMesh> read_surface(Session& session, const Context& context, const std::string& path,
-                                  const std::string& format) {
+                                  const std::string& format, const SurfaceOptions& options) {
     switch (kind_of(path, format)) {
         case ModelKind::csg:
-            return polyhedron_of_csg(session, context, path);
+            return polyhedron_of_csg(session, context, path, options);
         case ModelKind::octree:
             return boundary_of_octree(session, context, path);
         case ModelKind::bp_octree:

@@ -32,11 +32,15 @@ std::string check_model_format(const std::string& text);
 Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const std::string& path,
                                const std::string& format = "");
 
+struct SurfaceOptions {
+    bool keep_sources = false;  ///< of a CSG tree: the leaf that each facet came from
+};
+
 /// Reads the surface of whatever bounds a solid: a mesh as it is; a CSG tree evaluated exactly, with round things as
 /// the polyhedra that OpenSCAD makes of them; an octree as the boundary of its black cells; a BP-octree as its exact
 /// triangles; a BSP-octree as its faces.
 Result<io::ReadMesh> read_surface(Session& session, const Context& context, const std::string& path,
-                                  const std::string& format = "");
+                                  const std::string& format = "", const SurfaceOptions& options = {});
 
 Result<io::CsgFile> read_csg(Session& session, const Context& context, const std::string& path,
                              const io::CsgReadOptions& options);

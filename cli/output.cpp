@@ -35,7 +35,7 @@ const OutputFormats& answer_outputs() {
 }
 
 const OutputFormats& picture_outputs() {
-    static const OutputFormats formats{"pictures", {"png"}, "png"};
+    static const OutputFormats formats{"pictures", {"png", "svg", "pdf"}, "png"};
     return formats;
 }
 

@@ -23,6 +23,13 @@ for depth in 5 6 7; do
     octavo render "$scratch/housing-$depth.oct" -o docs/pictures/housing-cells-$depth.png --cut x --size 800x600
 done
 
+# Drawings: every line is a line, every face an area.
+octavo render "$scratch/housing.ply" -o docs/pictures/housing-drawing.svg --cut x:0.5,y:0:0.5 --hidden-lines \
+    --perspective 25 --size 800x600
+octavo render docs/examples/bracket.csg -o docs/pictures/bracket-sources.svg --paint source --size 800x600
+octavo bsp "$scratch/gear.ply" -o "$scratch/gear.bso"
+octavo render "$scratch/gear.bso" -o docs/pictures/gear-nodes.svg --paint node --elevation 50 --size 800x600
+
 octavo shape knot --detail 200 -o "$scratch/knot.ply"
 octavo build "$scratch/knot.ply" -o "$scratch/knot.bpo"
 octavo render "$scratch/knot.ply" -o docs/pictures/knot.png --size 400x300

@@ -84,7 +84,7 @@ Result<Camera> Camera::look_at(const Box3& bounds, const View& view, int width, 
 Vec3 Camera::project(Vec3 world) const {
     const Vec3 offset = world - target_;
     const double depth = dot(offset, forward_);
-    const double scale = distance_ > 0 ? scale_ * distance_ / (distance_ + depth) : scale_;
+    const double scale = scale_ / weight(depth);
     return {centre_x_ + scale * dot(offset, right_), centre_y_ - scale * dot(offset, up_), depth};
 }
 

@@ -34,6 +34,13 @@ class Camera {
     /// x and y in pixels, z the depth: larger is farther.
     Vec3 project(Vec3 world) const;
 
+    bool is_perspective() const { return distance_ > 0; }
+    /// Where the viewer stands; only in perspective, where everything looked at lies before it.
+    Vec3 eye() const { return target_ - distance_ * forward_; }
+    /// What the picture's coordinates of a point at this depth were divided by; 1 when orthographic. Where a point is
+    /// on the way between two others, weighted so, is the same in the world and in the picture.
+    double weight(double depth) const { return distance_ > 0 ? (distance_ + depth) / distance_ : 1; }
+
     Vec3 right() const { return right_; }
     Vec3 up() const { return up_; }
     /// The unit direction from the viewer into the picture at its centre.

@@ -20,6 +20,10 @@ inline constexpr Color gray_cell{0.95F, 0.72F, 0.30F};
 inline constexpr std::array<Color, 6> solids{Color{0.45F, 0.60F, 0.76F}, Color{0.95F, 0.72F, 0.30F},
                                              Color{0.55F, 0.72F, 0.45F}, Color{0.80F, 0.50F, 0.48F},
                                              Color{0.62F, 0.53F, 0.74F}, Color{0.60F, 0.60F, 0.58F}};
+/// Leaves of a BSP-octree by the planes in them: one, two, up to four, up to eight, more.
+inline constexpr std::array<Color, 5> planes_of_leaf{Color{0.62F, 0.70F, 0.79F}, Color{0.55F, 0.72F, 0.45F},
+                                                     Color{0.95F, 0.72F, 0.30F}, Color{0.90F, 0.52F, 0.30F},
+                                                     Color{0.74F, 0.32F, 0.36F}};
 /// From the least to the greatest value.
 inline constexpr std::array<Color, 5> values{Color{0.19F, 0.31F, 0.63F}, Color{0.40F, 0.68F, 0.78F},
                                              Color{0.93F, 0.92F, 0.70F}, Color{0.96F, 0.62F, 0.33F},

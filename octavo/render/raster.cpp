@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include <octavo/render/raster.hpp>
+#include <octavo/render/shading.hpp>
 
 namespace octavo::render {
 namespace {
@@ -29,20 +29,6 @@ struct Corner {
     Vec3 p;      // in samples, with depth
     double cut;  // world coordinate along the cut's axis
 };
-
-float lightness(Vec3 normal, const Camera& camera) {
-    const Vec3 towards = -camera.forward();
-    const Vec3 key = towards + 0.9 * camera.up() - 0.6 * camera.right();
-    const Vec3 fill = towards - 0.5 * camera.up() + 0.9 * camera.right();
-    const double from_key = std::max(0.0, dot(normal, key) / length(key));
-    const double from_fill = std::max(0.0, dot(normal, fill) / length(fill));
-    return static_cast<float>(0.50 + 0.62 * from_key + 0.16 * from_fill);
-}
-
-Color shade(Color color, float light) {
-    const auto channel = [&](float value) { return std::min(1.0F, value * light); };
-    return {channel(color.red), channel(color.green), channel(color.blue)};
-}
 
 /// Twice the signed area in the picture, whose y points down: negative for a facet seen from the front.
 double turn(Vec3 a, Vec3 b, Vec3 c) { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); }
@@ -132,12 +118,7 @@ Image average(Buffer& buffer, int samples) {
 
 Result<Image> draw(const Scene& scene, const Camera& camera, const DrawOptions& options,
                    const Context& context) {
-    if (options.width < 1 || options.height < 1 || options.width > largest_picture ||
-        options.height > largest_picture)
-        return Error{ErrorCode::bad_input,
-                     "a picture must be 1 to 16384 pixels wide and high, not " +
-                         std::to_string(options.width) + " by " + std::to_string(options.height),
-                     {}};
+    if (Status size = check_size(options.width, options.height); !size) return std::move(size).error();
     if (options.samples < 1 || options.samples > 8)
         return Error{ErrorCode::bad_input, "samples must lie between 1 and 8", {}};
 
@@ -148,10 +129,6 @@ Result<Image> draw(const Scene& scene, const Camera& camera, const DrawOptions& 
         const Vec3 p = camera.project(world);
         return Corner{{p.x * options.samples, p.y * options.samples, p.z}, world[options.cut_axis]};
     };
-
-    // Where a closed surface is cut open, one sees the back of its farther side exactly where the solid was cut. Lit
-    // evenly and without lines, those backs look like the cut itself.
-    constexpr float cap_light = 1;
 
     for (std::size_t i = 0; i < scene.facets.size(); ++i) {
         if (i % 65536 == 0) {
@@ -167,7 +144,8 @@ Result<Image> draw(const Scene& scene, const Camera& camera, const DrawOptions& 
         if (size == 0 || area == 0 || !std::isfinite(area)) continue;
         const bool front = area < 0;
         const bool capped = !front && options.cut_at < Box3::infinity;
-        const float light = capped ? cap_light : lightness((front ? 1 : -1) / size * normal, camera);
+        const float light =
+            capped || facet.is_cap ? cap_light : lightness((front ? 1 : -1) / size * normal, camera);
         fill(buffer, v, area, shade(front ? facet.front : facet.back, light), capped, options.cut_at);
     }
 

@@ -4,6 +4,7 @@
 #include <octavo/base/context.hpp>
 #include <octavo/render/camera.hpp>
 #include <octavo/render/image.hpp>
+#include <octavo/render/picture_size.hpp>
 #include <octavo/render/scene.hpp>
 
 // A scene drawn by depth buffer.
@@ -15,8 +16,6 @@
 // Cost: facets + covered samples; memory: 20 bytes a sample.
 
 namespace octavo::render {
-
-constexpr int largest_picture = 16384;
 
 struct DrawOptions {
     int width = 1200, height = 900;  ///< in pixels, 1 to `largest_picture`

@@ -9,6 +9,7 @@
 #include <octavo/mesh/hex_mesh.hpp>
 #include <octavo/mesh/mesh.hpp>
 #include <octavo/octree/octree.hpp>
+#include <octavo/render/camera.hpp>
 #include <octavo/render/image.hpp>
 #include <octavo/render/palette.hpp>
 
@@ -20,6 +21,7 @@ struct Facet {
     std::array<Vec3, 3> corners;  ///< counter-clockwise seen from the front
     Color front = palette::solid;
     Color back = palette::inner;
+    bool is_cap = false;  ///< where a solid was cut open: not lit
 };
 
 struct Line {
@@ -40,21 +42,30 @@ struct Scene {
 /// Which edges of a mesh become lines.
 enum class EdgeLines { none, sharp, all };
 
+enum class MeshColors {
+    solid,   ///< all facets alike
+    source,  ///< by the operand that a facet came from
+};
+
 struct MeshSceneOptions {
     EdgeLines edges = EdgeLines::sharp;
     double sharp_degrees = 30;  ///< `sharp` edges turn by more than this, or have not exactly two facets
+    MeshColors colors = MeshColors::solid;
 };
 
+/// Facets whose source is a cut (cut_open.hpp) are caps.
 Scene scene_of(const mesh::Mesh& mesh, const MeshSceneOptions& options = {});
 
+/// The edges between a facet that looks at the viewer and one that does not: where round things end.
+std::vector<Line> contours_of(const mesh::Mesh& mesh, const Camera& camera);
+
 struct OctreeSceneOptions {
-    /// Cells whose centre lies beyond this world coordinate along `cut_axis` are left out.
-    double cut_at = Box3::infinity;
-    int cut_axis = 0;
+    Box3 removed = {};                 ///< cells whose centre lies inside are left out
     EdgeLines edges = EdgeLines::all;  ///< `none` leaves out the cells' outlines
 };
 
-/// The walls of the black and gray leaves that a viewer can see: those towards a white leaf, the cut or the outside.
+/// The walls of the black and gray leaves that a viewer can see: those towards a white leaf, a removed one or the
+/// outside.
 Scene scene_of(const octree::Octree& tree, const OctreeSceneOptions& options = {});
 
 struct HexMeshSceneOptions {

@@ -22,12 +22,17 @@ struct Drawn {
     }
 };
 
+bool holds(const Box3& box, Vec3 p) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(box.low[axis] < p[axis] && p[axis] < box.high[axis])) return false;
+    return true;
+}
+
 Drawn drawn_leaves(const octree::Octree& tree, const OctreeSceneOptions& options) {
     Drawn drawn;
     tree.for_each_leaf([&](CellKey key, octree::Color color) {
         if (color == octree::Color::white) return;
-        const Vec3 centre = tree.lattice().to_world(Cell::of(key).centre());
-        if (centre[options.cut_axis] > options.cut_at) return;
+        if (holds(options.removed, tree.lattice().to_world(Cell::of(key).centre()))) return;
         drawn.keys.push_back(key);
         drawn.colors.push_back(color);
     });
