@@ -129,7 +129,9 @@ Result<std::vector<Side>> contains(const mesh::Mesh& mesh, std::span<const Vec3>
                                    const InsideOptions& options, const Context& context) {
     const Result<InsideQuery> query = InsideQuery::build(mesh, options, context);
     if (!query) return query.error();
-    return (*query)(points, context);
+    std::vector<Side> sides = (*query)(points, context);
+    if (context.cancelled()) return Context::cancelled_error();
+    return sides;
 }
 
 }  // namespace octavo::query

@@ -60,7 +60,7 @@ class InsideQuery {
     /// Where a point of the world lies.
     Side operator()(Vec3 point) const;
 
-    /// The same for many points; in their order, parallel, and faster a point.
+    /// The same for many points, in their order; parallel, and faster a point. Cancelled: the rest says outside.
     std::vector<Side> operator()(std::span<const Vec3> points, const Context& context = {}) const;
 
     const exact::Lattice& lattice() const { return lattice_; }
@@ -85,7 +85,7 @@ class InsideQuery {
     std::vector<classic::FacetCorners> facets_;
 };
 
-/// One-off: builds an InsideQuery and asks it. Worth it from some hundred points on.
+/// One-off: builds an InsideQuery and asks it. Worth it from some hundred points on. Errors: as build, while asking too.
 Result<std::vector<Side>> contains(const mesh::Mesh& mesh, std::span<const Vec3> points,
                                    const InsideOptions& options = {}, const Context& context = {});
 

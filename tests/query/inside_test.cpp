@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -234,6 +235,23 @@ TEST(Contains, AnswersInOneCallForAMeshOfDoubles) {
     EXPECT_EQ(*contains(mesh, points), (std::vector<Side>{Side::inside, Side::outside, Side::on}));
     mesh.vertices[3].x = std::nan("");
     EXPECT_FALSE(contains(mesh, points));
+}
+
+TEST(Contains, NeverAnswersForPointsThatItDidNotLookAt) {
+    const mesh::LatticeMesh ball = tests::sphere({500, 500, 500}, 300, 2);
+    mesh::Mesh mesh;
+    for (const exact::Point& p : ball.points) mesh.vertices.push_back({1.0 * p.x, 1.0 * p.y, 1.0 * p.z});
+    mesh.triangles = ball.triangles;
+    const std::vector<Vec3> centres(100'000, {500, 500, 500});
+    // Cancelled when the query has been built, before it answers.
+    std::atomic<bool> cancel{false};
+    Context context;
+    context.threads = 1;
+    context.cancel = &cancel;
+    context.on_progress = [&](std::string_view, double done) { cancel = done == 1; };
+    const Result<std::vector<Side>> sides = contains(mesh, centres, {}, context);
+    ASSERT_FALSE(sides);
+    EXPECT_EQ(sides.error().code, ErrorCode::cancelled);
 }
 
 TEST(InsideQuery, AgreesWithRationalRaysOnRealModels) {
