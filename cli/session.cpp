@@ -70,7 +70,8 @@ int Session::finish(Result<ExitCode> outcome) {
     } else if (outcome && !stdout_taken && !options.quiet) {
         std::fwrite(text.data(), 1, text.size(), stdout);
     }
-    if (std::fflush(stdout) != 0) {
+    // What does not fit the buffer is written before; that it failed is remembered, flushing then succeeds.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
         fmt::print(stderr, "octavo: cannot write to stdout\n");
         return static_cast<int>(ExitCode::bad_input);
     }

@@ -40,26 +40,37 @@ Result<bsp_octree::BspOctree> load(Session& session, const Context& context, con
     return std::move(built->octree);
 }
 
-/// Writes a .bso file, or the mesh of the tree in any other format.
+/// A .bso file, or the mesh of the tree.
+const OutputFormats& bsp_outputs() {
+    static const OutputFormats formats = [] {
+        OutputFormats all{"BSP-octrees", {"bso"}, "bso"};
+        all.names.insert(all.names.end(), mesh_outputs().names.begin(), mesh_outputs().names.end());
+        return all;
+    }();
+    return formats;
+}
+
 Result<io::WriteReport> store(Session& session, const Context& context, const bsp_octree::BspOctree& octree,
-                              const std::string& path) {
-    if (kind_of(path, "") == ModelKind::bsp_octree || path == "-") {
+                              const std::string& path, const std::string& format) {
+    if (format == "bso") {
         if (path == "-") session.stdout_taken = true;
         return session.timed("write", [&] { return bsp_octree::write_bso(path, octree, context); });
     }
     Result<bsp_octree::ToMesh> made =
         session.timed("mesh", [&] { return bsp_octree::to_mesh(octree, context); });
     if (!made) return std::move(made).error();
-    return write_mesh(session, context, path, made->mesh);
+    return write_mesh(session, context, path, made->mesh, {.format = format});
 }
 
 Result<ExitCode> make_bsp(Session& session, const BspArguments& arguments) {
     const Context context = session.context();
-    if (same_file(arguments.input, arguments.output)) return would_overwrite(arguments.output);
+    const Result<std::string> format =
+        settle_output(session, {arguments.input}, arguments.output, "", bsp_outputs());
+    if (!format) return format.error();
     Result<bsp_octree::BspOctree> octree = load(session, context, arguments);
     if (!octree) return std::move(octree).error();
     if (!arguments.output.empty()) {
-        const Result<io::WriteReport> written = store(session, context, *octree, arguments.output);
+        const Result<io::WriteReport> written = store(session, context, *octree, arguments.output, *format);
         if (!written) return written.error();
     }
     tell(session, *octree, bsp_octree::encode(*octree).size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <octavo/mesh/validate.hpp>
 
+#include "file_faces.hpp"
 #include "model.hpp"
 #include "program.hpp"
 #include "report_facts.hpp"
@@ -24,7 +25,7 @@ Result<ExitCode> check(Session& session, const CheckOptions& options) {
     Result<mesh::Report> report =
         session.timed("validate", [&] { return mesh::validate(read->mesh, validating, context); });
     if (!report) return in_file(std::move(report).error(), options.input);
-    session.result = json_of(*report);
+    session.result = json_of(with_faces_of_file(*report, *read));
     session.text = report->describe();
     return report->solid ? ExitCode::ok : ExitCode::no;
 }

@@ -52,8 +52,10 @@ void tell(Session& session, const bsp_octree::Milled& milled, const bsp_octree::
 
 Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
     const Context context = session.context();
-    for (const std::string& input : {arguments.work, arguments.tool, arguments.path})
-        if (same_file(input, arguments.output)) return would_overwrite(input);
+    const Result<std::string> format =
+        settle_output(session, {arguments.work, arguments.tool, arguments.path}, arguments.output,
+                      arguments.format, mesh_outputs());
+    if (!format) return format.error();
     Result<io::ReadMesh> work = read_mesh(session, context, arguments.work);
     if (!work) return std::move(work).error();
     Result<io::ReadMesh> tool = read_mesh(session, context, arguments.tool);
@@ -69,9 +71,8 @@ Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
     Result<bsp_octree::ToMesh> made =
         session.timed("mesh", [&] { return bsp_octree::to_mesh(milled->solid, context); });
     if (!made) return std::move(made).error();
-    io::WriteOptions writing;
-    writing.format = arguments.format;
-    Result<io::WriteReport> written = write_mesh(session, context, arguments.output, made->mesh, writing);
+    Result<io::WriteReport> written =
+        write_mesh(session, context, arguments.output, made->mesh, {.format = *format});
     if (!written) return std::move(written).error();
     tell(session, *milled, *made, arguments.output);
     return ExitCode::ok;
@@ -91,7 +92,8 @@ void add_mill(Program& program) {
                      "Poses of the tool, one a line: x,y,z, or 12 numbers (3 rows of 4, row-major)")
         ->required()
         ->type_name("FILE");
-    verb->add_option("-o,--output", arguments->output, "The mesh to write; - is stdout")
+    verb->add_option("-o,--output", arguments->output,
+                     "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")
         ->required()
         ->type_name("FILE");
     verb->add_option("--to", arguments->format, "Format of the output, instead of by its extension")

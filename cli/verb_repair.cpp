@@ -4,6 +4,7 @@
 #include <octavo/mesh/repair.hpp>
 #include <octavo/mesh/validate.hpp>
 
+#include "file_faces.hpp"
 #include "model.hpp"
 #include "program.hpp"
 #include "report_facts.hpp"
@@ -17,12 +18,13 @@ struct RepairOptions {
     std::string input, output, from, to;
 };
 
-Json steps_of(const mesh::RepairReport& report) {
+/// What was done to which faces of the file.
+Json steps_of(const mesh::RepairReport& report, const io::ReadMesh& read) {
     Json steps = Json::array();
     for (const mesh::RepairStep& step : report.steps)
         steps.push_back({{"kind", mesh::name_of(step.kind)},
                          {"count", step.count},
-                         {"faces", step.faces},
+                         {"faces", faces_of_file(step.faces, read)},
                          {"sentence", step.sentence}});
     return steps;
 }
@@ -47,7 +49,7 @@ Result<ExitCode> repair(Session& session, const RepairOptions& options) {
     if (!written) return std::move(written).error();
 
     session.result = json_of(*after);
-    session.result["repairs"] = steps_of(repaired->report);
+    session.result["repairs"] = steps_of(repaired->report, *read);
     session.text = repaired->report.describe() + after->describe();
     return ExitCode::ok;
 }

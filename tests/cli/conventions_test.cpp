@@ -47,6 +47,9 @@ TEST_F(Conventions, AWrongCommandLineIsExitCode2WithAHintAndEmptyStdout) {
                                   "contains a.off p.csv --to xls",
                                   "contains - -",
                                   "union - - -o a.stl",
+                                  "mill - --tool - --path p.csv -o a.stl",
+                                  "mill a.off --tool b.off --path p.csv -o a.xyz",
+                                  "bsp a.off -o a.xyz",
                                   "repair a.off -o a.doc",
                                   "union a.off b.off -o a.png",
                                   "shape sphere --detail 99999 -o a.stl",
@@ -104,7 +107,9 @@ TEST_F(Conventions, DataAndTheJsonObjectDoNotShareStdout) {
     write("points.csv", "0,0,0\n");
     for (const char* arguments :
          {"convert cube.off - --to obj --json", "octree cube.off -o - --json",
-          "contains cube.off points.csv -o - --json", "shape cube -o - --to stl --json"}) {
+          "contains cube.off points.csv -o - --json", "shape cube -o - --to stl --json",
+          "mill cube.off --tool cube.off --path points.csv -o - --to stl --json",
+          "bsp cube.off -o - --json"}) {
         const Ran ran = octavo(arguments);
         EXPECT_EQ(ran.exit_code, 2) << arguments;
         ASSERT_TRUE(ran.json().is_object()) << arguments;
@@ -152,6 +157,16 @@ TEST_F(Conventions, JsonIsOneObjectWithTheCommonKeysAlsoWhenItFails) {
     ASSERT_TRUE(error.is_object()) << failed.out;
     EXPECT_EQ(error["error"]["file"], "nowhere.stl");
     EXPECT_FALSE(error.contains("result"));
+}
+
+TEST_F(Conventions, WhatStdoutDidNotTakeIsToldHoweverLongItIs) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    for (const char* arguments :
+         {"check cube.off --json", "man", "completion bash", "shape knot -o - --to ply"}) {
+        const Ran ran = shell(std::string("$octavo ") + arguments + " > /dev/full");
+        EXPECT_EQ(ran.exit_code, 3) << arguments;
+        EXPECT_NE(ran.err, "") << arguments;
+    }
 }
 
 TEST_F(Conventions, MeshesGoThroughPipes) {

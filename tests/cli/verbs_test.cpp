@@ -64,7 +64,22 @@ TEST_F(Verbs, CheckSaysNoAndWhere) {
     ASSERT_GE(result["problems"].size(), 1U);
     EXPECT_EQ(result["problems"][0]["kind"], "open_edges");
     EXPECT_EQ(result["problems"][0]["count"], 4);
-    EXPECT_EQ(result["problems"][0]["faces"].size(), 4U);
+    // The faces of the file, not the triangles that they are cut into.
+    EXPECT_EQ(result["problems"][0]["faces"], json::array({1, 2, 3, 4}));
+    EXPECT_NE(octavo("octree open.off -o open.oct").err.find("(facets 1, 2, 3, 4)"), std::string::npos);
+}
+
+TEST_F(Verbs, RepairNamesTheFacesOfTheFile) {
+    // Face 5 repeats face 4.
+    write("twice.off", std::string(open_cube).replace(4, 5, "8 7 0") + "4 3 0 4 7\n4 4 5 6 7\n");
+    const Ran ran = octavo("repair twice.off -o once.off --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const json result = ran.json()["result"];
+    ASSERT_EQ(result["repairs"].size(), 1U);
+    EXPECT_EQ(result["repairs"][0]["kind"], "dropped_duplicate_facets");
+    EXPECT_EQ(result["repairs"][0]["count"], 2);
+    EXPECT_EQ(result["repairs"][0]["faces"], json::array({5}));
+    EXPECT_EQ(result["valid"], true);
 }
 
 TEST_F(Verbs, SetOperationsOnShiftedCubesHaveTheirExactVolumes) {
