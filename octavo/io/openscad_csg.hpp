@@ -45,8 +45,9 @@ struct CsgFile {
 };
 
 /// Reads the file `path`, or standard input when it is "-"; imports are looked for beside it. Errors, with line and
-/// column: bad_input (grammar, unknown nodes, wrong or missing parameters), unsupported, not_a_solid (the tree is
-/// flat, an open polyhedron), limit, io, cancelled.
+/// column: bad_input (grammar, unknown nodes, wrong or missing parameters, more nodes or numbers than the options
+/// allow), unsupported, not_a_solid (the tree is flat, an open polyhedron), limit (a primitive of too many vertices),
+/// io, cancelled.
 Result<CsgFile> read_csg(const std::string& path, const CsgReadOptions& options = {},
                          const Context& context = {});
 

@@ -67,8 +67,8 @@ class Parser {
   private:
     std::uint64_t offset(const char* p) const { return static_cast<std::uint64_t>(p - syntax_.text.data()); }
 
-    Error fail(const char* where, std::string sentence, ErrorCode code = ErrorCode::bad_input) {
-        error_ = syntax_.error_at(offset(where), std::move(sentence), code);
+    Error fail(const char* where, std::string sentence) {
+        error_ = syntax_.error_at(offset(where), std::move(sentence));
         return *error_;
     }
 
@@ -114,8 +114,7 @@ class Parser {
     /// Modifiers, name and arguments.
     bool read_head(std::uint32_t) {
         if (syntax_.nodes.size() >= options_.most_nodes) {
-            fail(at_, "the tree has more than " + std::to_string(options_.most_nodes) + " nodes",
-                 ErrorCode::limit);
+            fail(at_, "the tree has more than " + std::to_string(options_.most_nodes) + " nodes");
             return false;
         }
         if (syntax_.nodes.size() % 4096 == 0 && context_.cancelled()) {
@@ -214,8 +213,7 @@ class Parser {
 
     bool push(Value::Kind kind, double number = 0) {
         if (syntax_.values.size() >= options_.most_values || syntax_.values.size() >= (1U << 29) - 2) {
-            fail(at_, "the file holds more than " + std::to_string(options_.most_values) + " numbers",
-                 ErrorCode::limit);
+            fail(at_, "the file holds more than " + std::to_string(options_.most_values) + " numbers");
             return false;
         }
         Value value{};
@@ -240,7 +238,7 @@ class Parser {
             }
             if (*at_ == '[') {
                 if (open.size() == deepest) {
-                    fail(at_, "vectors are nested too deeply", ErrorCode::limit);
+                    fail(at_, "vectors are nested more than " + std::to_string(deepest) + " deep");
                     return false;
                 }
                 open.push_back(static_cast<std::uint32_t>(syntax_.values.size()));
