@@ -48,16 +48,41 @@ class GrayCells {
         for (std::size_t i = 0; i < 8; ++i) {
             const Node known = code_[node];
             const bool open = known == Node::split || known == Node::gray;
+            // Pruning is three-valued logic as well: it decides what combining octrees does, and what is out of reach.
             children[i] = {open ? pruned[i].node : known, {pruned[i].description, node}};
-            // Pruning is three-valued logic as well, so it splits what the code splits.
-            OCTAVO_DCHECK((known == Node::split) == (pruned[i].node == Node::split) || known == Node::gray,
-                          "the two methods differ on a cell above the last level");
             for (std::size_t pending = 1; pending > 0;)
                 pending += code_[node++] == Node::split ? 7 : std::size_t(-1);
         }
     }
 
+    static constexpr int finished_levels = CsgDescent::finished_levels;
+    Node finish(const octree::Cell& cell, const Description& d, Workspace& workspace, Output& output) const {
+        const octree::GrandchildColors known = colors_below(d.node),
+                                       seen = descent_.color_brick(cell, d.words, workspace);
+        const std::uint64_t open = ~(known.white | known.black);
+        return output.finish({known.white | (seen.white & open), known.black | (seen.black & open)});
+    }
+
   private:
+    /// Of the node's octants and theirs.
+    octree::GrandchildColors colors_below(std::size_t node) const {
+        octree::GrandchildColors colors;
+        const auto add = [&](Node leaf, std::uint64_t cells) {
+            if (leaf == Node::white) colors.white |= cells;
+            if (leaf == Node::black) colors.black |= cells;
+        };
+        for (int outer = 0; outer < 8; ++outer) {
+            const Node octant = code_[++node];
+            if (is_leaf(octant)) {
+                add(octant, std::uint64_t{0xFF} << (8 * outer));
+                continue;
+            }
+            for (int inner = 0; inner < 8; ++inner)
+                add(code_[++node], std::uint64_t{1} << (8 * outer + inner));
+        }
+        return colors;
+    }
+
     const CsgDescent& descent_;
     const DfCode& code_;
 };
@@ -82,13 +107,14 @@ Result<DfCode> build_top_down(const csg::Program& program, int depth, CsgBuildSt
     return code;
 }
 
-Result<DfCode> build_classic(const csg::Program& program, int depth, CsgBuildStats& stats,
-                             const Context& context) {
-    Result<PrimitivewiseOctree> combined = build_by_primitive(program, depth, context);
+/// An octree of each leaf of `primitives`; gray cells are looked at again by `program`, which may have fewer.
+Result<DfCode> build_classic(const csg::Program& primitives, const csg::Program& program, int depth,
+                             CsgBuildStats& stats, const Context& context) {
+    Result<PrimitivewiseOctree> combined = build_by_primitive(primitives, depth, context);
     if (!combined) return combined.error();
-    const std::uint64_t primitives = stats.primitives;
+    const std::uint64_t count = stats.primitives;
     stats = combined->stats;
-    stats.primitives = primitives;
+    stats.primitives = count;
     CsgDescent::Counters counters;
     const CsgDescent descent(program, program.words, {depth, CsgDescentOptions::LastLevel::resolve},
                              counters);
@@ -112,9 +138,9 @@ std::optional<int> depth_for(double precision, const exact::Lattice& lattice) {
     return {};
 }
 
-}  // namespace
-
-Result<CsgOctree> build(const csg::Program& program, const CsgBuildOptions& options, const Context& context) {
+/// `primitives` are those of the classic method.
+Result<CsgOctree> build_either(const csg::Program& program, const csg::Program& primitives,
+                               const CsgBuildOptions& options, const Context& context) {
     int depth = options.depth;
     if (!(options.precision >= 0) || !std::isfinite(options.precision))
         return Error{ErrorCode::bad_input, "the precision is not a positive number", {}};
@@ -129,7 +155,7 @@ Result<CsgOctree> build(const csg::Program& program, const CsgBuildOptions& opti
                      "the depth of the octree is " + std::to_string(depth) + ", not in 0 to 21",
                      {}};
     CsgBuildStats stats;
-    stats.primitives = program.leaves.size();
+    stats.primitives = program.primitives;
     if (program.words.empty()) {
         DfCode code;
         code.append(program.constant ? Node::black : Node::white);
@@ -138,9 +164,15 @@ Result<CsgOctree> build(const csg::Program& program, const CsgBuildOptions& opti
     }
     Result<DfCode> code = options.method == CsgMethod::top_down
                               ? build_top_down(program, depth, stats, context)
-                              : build_classic(program, depth, stats, context);
+                              : build_classic(primitives, program, depth, stats, context);
     if (!code) return code.error();
     return CsgOctree{octree::Octree(program.lattice, depth, std::move(*code)), stats};
+}
+
+}  // namespace
+
+Result<CsgOctree> build(const csg::Program& program, const CsgBuildOptions& options, const Context& context) {
+    return build_either(program, program, options, context);
 }
 
 Result<CsgOctree> build(const csg::Expr& expression, const CsgBuildOptions& options, const Context& context) {
@@ -148,7 +180,12 @@ Result<CsgOctree> build(const csg::Expr& expression, const CsgBuildOptions& opti
     compile_options.universe = options.universe;
     Result<csg::Program> program = csg::compile(expression, compile_options, context);
     if (!program) return program.error();
-    return build(*program, options, context);
+    if (options.method == CsgMethod::top_down) return build_either(*program, *program, options, context);
+    // The classic method knows nothing of what is around a primitive: it colours them all.
+    compile_options.primitives = csg::CompileOptions::Primitives::all;
+    const Result<csg::Program> primitives = csg::compile(expression, compile_options, context);
+    if (!primitives) return primitives.error();
+    return build_either(*program, *primitives, options, context);
 }
 
 }  // namespace octavo::classic

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,8 @@
 //
 // A description is a range of words in the buffer of some level: the program as pruned for the cell. A cell whose
 // program pruning would not change (one box, one quadric) lends it to its octants instead of copying. The program
-// of octant i is written while octants are split, all eight into the buffer of the next level.
+// of octant i is written while octants are split, all eight into the buffer of the next level. The last two levels are
+// coloured at once.
 
 namespace octavo::classic {
 
@@ -34,14 +36,6 @@ class CsgDescent {
     struct Description {
         std::uint32_t begin = 0, size = 0;
         std::uint32_t buffer = 0;
-
-        /// A cell above the last level whose octants have been coloured with those of its siblings.
-        static constexpr std::uint32_t colored = ~std::uint32_t{0};
-        static Description of(csg::OctantColors octants) { return {octants.white, octants.black, colored}; }
-        bool is_colored() const { return buffer == colored; }
-        csg::OctantColors octants() const {
-            return {static_cast<std::uint8_t>(begin), static_cast<std::uint8_t>(size)};
-        }
     };
 
     struct Counters {
@@ -111,13 +105,10 @@ class CsgDescent {
         return {octree::Node::split, {0, static_cast<std::uint32_t>(words_.size()), 0}};
     }
 
-    std::size_t weight(const Description& description) const {
-        return description.is_colored() ? 1 : description.size;
-    }
+    std::size_t weight(const Description& description) const { return description.size; }
 
     Description transfer(const octree::Cell&, const Description& description, const Workspace& from,
                          Workspace& to) const {
-        if (description.is_colored()) return description;
         const std::span<const std::uint32_t> words = from.words(description);
         put(words, to.buffers[description.buffer]);
         return {0, description.size, description.buffer};
@@ -126,9 +117,7 @@ class CsgDescent {
     void restrict_to_children(const octree::Cell& parent, const Description& description,
                               Workspace& workspace, octree::Children<Description>& children) const {
         workspace.octants += 8;
-        if (description.is_colored()) return give_colors(description.octants(), children);
         const std::span<const std::uint32_t> words = workspace.words(description);
-        if (parent.level + 2 == options_.depth) return color_brick(parent, words, workspace, children);
         csg::Pruner& pruner = workspace.pruner;
         const csg::Seen seen = pruner.evaluate(program_, words, parent);
         if (parent.level + 1 == options_.depth)
@@ -149,7 +138,51 @@ class CsgDescent {
         }
     }
 
+    static constexpr int finished_levels = 2;
+    octree::Node finish(const octree::Cell& cell, const Description& description, Workspace& workspace,
+                        Output& output) const {
+        return output.finish(color_brick(cell, description, workspace));
+    }
+
+    /// The last two levels at once.
+    octree::GrandchildColors color_brick(const octree::Cell& cell, const Description& description,
+                                         Workspace& workspace) const {
+        const std::span<const std::uint32_t> words = workspace.words(description);
+        const csg::BrickSeen& seen = workspace.brick.evaluate(program_, words, cell);
+        csg::LayerPair colors = seen.cells;
+        if (resolves()) {
+            csg::Layers unproved = seen.unproved();
+            while (const std::optional<csg::BrickCell> next = take_first(unproved)) {
+                workspace.brick.prune(words, *next, workspace.cell_words);
+                const octree::Color color = look_again(cell_of(cell, *next), workspace);
+                if (color == octree::Color::white) next->add_to(colors.out);
+                if (color == octree::Color::black) next->add_to(colors.in);
+            }
+        }
+        const octree::GrandchildColors in_order{in_morton_order(colors.out), in_morton_order(colors.in)};
+        workspace.octants += 8 + 8 * octants_of_two_colors(in_order);
+        return in_order;
+    }
+
   private:
+    /// Octants of a cell that are not white as a whole, nor black.
+    static std::uint64_t octants_of_two_colors(const octree::GrandchildColors& colors) {
+        std::uint64_t count = 0;
+        for (unsigned octant = 0; octant < 8; ++octant)
+            count += (colors.white >> (8 * octant) & 0xFF) != 0xFF &&
+                     (colors.black >> (8 * octant) & 0xFF) != 0xFF;
+        return count;
+    }
+
+    static octree::Cell cell_of(const octree::Cell& brick, const csg::BrickCell& cell) {
+        const auto quarters = [&](std::uint32_t count) {
+            return static_cast<int>(count) * (brick.side() / 4);
+        };
+        return {
+            {brick.low.x + quarters(cell.x), brick.low.y + quarters(cell.y), brick.low.z + quarters(cell.z)},
+            brick.level + 2};
+    }
+
     static void put(std::span<const std::uint32_t> words, csg::Scratch<std::uint32_t>& buffer) {
         buffer.clear();
         buffer.end_at(std::copy(words.begin(), words.end(), buffer.room(words.size())));
@@ -160,30 +193,6 @@ class CsgDescent {
     }
 
     bool resolves() const { return options_.last_level == CsgDescentOptions::LastLevel::resolve; }
-
-    /// Both of the last two levels.
-    void color_brick(const octree::Cell& parent, std::span<const std::uint32_t> words, Workspace& workspace,
-                     octree::Children<Description>& children) const {
-        const csg::BrickSeen& seen = workspace.brick.evaluate(program_, words, parent);
-        const csg::Layers gray = seen.gray();
-        csg::Layers open;
-        if (resolves())
-            open = without(gray, cells_with_corner(seen.corners.out) & cells_with_corner(seen.corners.in));
-        for (unsigned outer = 0; outer < 8; ++outer) {
-            csg::OctantColors colors{octant_of(seen.cells.out, outer), octant_of(seen.cells.in, outer)};
-            for (unsigned inner = octant_of(open, outer); inner != 0; inner &= inner - 1) {
-                const int octant = std::countr_zero(inner);
-                workspace.brick.prune(words, csg::BrickCell::of(outer, static_cast<unsigned>(octant)),
-                                      workspace.cell_words);
-                colors.set(octant,
-                           look_again(parent.child(static_cast<int>(outer)).child(octant), workspace));
-            }
-            children[outer].node = colors.white == 0xFF   ? octree::Node::white
-                                   : colors.black == 0xFF ? octree::Node::black
-                                                          : octree::Node::split;
-            children[outer].description = Description::of(colors);
-        }
-    }
 
     /// Of a tree with one level: the octants of the universe.
     csg::OctantColors looked_at_again(const octree::Cell& parent, std::span<const std::uint32_t> words,

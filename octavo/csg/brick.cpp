@@ -29,8 +29,8 @@ BrickSeen Brick::look(const Leaf& leaf, Payload payload, const octree::Cell& par
     const BrickSides box = brick_sides_of_box(leaf, parent);
     const Layers met = without(needed, box.white);
     for (const std::uint32_t cells : met.layer) tests_ += static_cast<std::uint64_t>(std::popcount(cells));
-    if (leaf.kind == LeafKind::box) return {{box.white, box.black}, box.corners};
-    if (!met.any()) return {{box.white, {}}, {box.corners.out, {}}};
+    if (leaf.kind == LeafKind::box) return {{box.white, box.black}, box.corners, {box.white, box.black}};
+    if (!met.any()) return {{box.white, {}}, {box.corners.out, {}}, {box.white, {}}};
     switch (leaf.kind) {
         case LeafKind::convex:
             return look_at_convex(payload.all ? program_->constraints_of(leaf) : payload.items, parent,
@@ -45,24 +45,45 @@ BrickSeen Brick::look(const Leaf& leaf, Payload payload, const octree::Cell& par
 BrickSeen Brick::look_at_convex(std::span<const std::uint32_t> constraints, const octree::Cell& parent,
                                 const Layers& needed, const BrickSides& box) {
     Layers* matters = matters_.room(constraints.size());
-    BrickSeen seen{{box.white, Layers::cells()}, {box.corners.out, Layers::corners()}};
+    BrickSeen seen{{box.white, Layers::cells()}, {box.corners.out, Layers::corners()}, {}};
+    surfaces_.clear();
+    bool plain = true;
     for (const std::uint32_t id : constraints) {
-        const BrickSides sides = ConstraintId::is_cone(id)
-                                     ? brick_sides(program_->quadrics[ConstraintId::index(id)], parent)
-                                     : brick_sides(program_->planes[id], parent);
-        seen = intersect(seen, {{sides.white, sides.black}, sides.corners});
-        *matters++ = without(Layers::cells(), sides.black);
+        BrickSurface surface;
+        const BrickSides sides =
+            ConstraintId::is_cone(id)
+                ? brick_sides(program_->quadrics[ConstraintId::index(id)], parent, surface)
+                : brick_sides(program_->planes[id], parent, surface);
+        seen.cells = intersect(seen.cells, {sides.white, sides.black});
+        seen.corners = intersect(seen.corners, sides.corners);
+        *matters = without(Layers::cells(), sides.black);
+        if (matters->any()) surfaces_.push_back(surface);
+        plain &= surface.plain;
+        ++matters;
         // White wherever it is asked about: other constraints have nothing to add.
-        if (!without(needed, seen.cells.out).any()) return {{seen.cells.out, {}}, {seen.corners.out, {}}};
+        if (!without(needed, seen.cells.out).any())
+            return {{seen.cells.out, {}}, {seen.corners.out, {}}, {seen.cells.out, {}}};
     }
     matters_.end_at(matters);
     seen.cells.in = without(seen.cells.in, seen.cells.out);
+    seen.reached = {cells_with_corner(seen.corners.out), cells_with_corner(seen.corners.in)};
+    if (plain && !surfaces_.empty()) look_past_corners(needed, seen);
     return seen;
+}
+
+/// Where no corner lies in the body, asks whether it enters the cell all the same.
+void Brick::look_past_corners(const Layers& needed, BrickSeen& seen) const {
+    const Layers asked = without(without(needed, seen.cells.out), seen.reached.in);
+    if (!asked.any()) return;
+    const BodyInCells body = body_in_cells(surfaces_, asked);
+    seen.cells.out = seen.cells.out | body.missed;
+    seen.cells.in = without(seen.cells.in, body.missed);
+    seen.reached = {seen.reached.out | body.missed, seen.reached.in | body.entered};
 }
 
 BrickSeen Brick::look_at_torus(const LatticeTorus& torus, const octree::Cell& parent, const Layers& needed,
                                const BrickSides& box) {
-    BrickSeen seen{{box.white, {}}, brick_sides(torus, parent).corners};
+    BrickSeen seen{{box.white, {}}, brick_sides(torus, parent).corners, {}};
     for (unsigned outer = 0; outer < 8; ++outer)
         for (unsigned inner = 0; inner < 8; ++inner) {
             const BrickCell cell = BrickCell::of(outer, inner);
@@ -89,7 +110,7 @@ BrickSeen Brick::look_at_polyhedron(const LatticePolyhedron& polyhedron, Payload
     for (const std::uint32_t triangle : triangles)
         outer_met.push_back(polyhedron.octants_met(triangle, parent));
 
-    BrickSeen seen{{Layers::cells(), {}}, {box.corners.out, {}}};
+    BrickSeen seen{{Layers::cells(), {}}, {box.corners.out, {}}, {}};
     for (unsigned outer = 0; outer < 8; ++outer) {
         const octree::Cell octant = parent.child(static_cast<int>(outer));
         met_.clear();

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <octavo/csg/body_in_cells.hpp>
 #include <octavo/csg/brick_sides.hpp>
 #include <octavo/csg/fold_words.hpp>
 #include <octavo/csg/scratch.hpp>
@@ -43,6 +44,7 @@ class Brick {
     BrickSeen look(const Leaf& leaf, Payload payload, const octree::Cell& parent, const Layers& needed);
     BrickSeen look_at_convex(std::span<const std::uint32_t> constraints, const octree::Cell& parent,
                              const Layers& needed, const BrickSides& box);
+    void look_past_corners(const Layers& needed, BrickSeen& seen) const;
     BrickSeen look_at_torus(const LatticeTorus& torus, const octree::Cell& parent, const Layers& needed,
                             const BrickSides& box);
     BrickSeen look_at_polyhedron(const LatticePolyhedron& polyhedron, Payload payload,
@@ -53,8 +55,9 @@ class Brick {
     Scratch<Node> nodes_;
     std::vector<OpenOperation<BrickSeen>> open_;
     std::vector<WrittenOperation> written_;
-    Scratch<Layers> matters_;         // the cells in which an item of a payload matters
-    Scratch<std::int32_t> windings_;  // 64 for each polyhedron
+    Scratch<Layers> matters_;             // the cells in which an item of a payload matters
+    Scratch<std::int32_t> windings_;      // 64 for each polyhedron
+    std::vector<BrickSurface> surfaces_;  // of the leaf that is looked at, those that cut the brick
     std::vector<std::uint32_t> all_, met_;
     std::uint64_t tests_ = 0;
 };

@@ -103,7 +103,6 @@ Layers above_tangent(const QuadricSteps& q, float bend) {
 }
 
 void leave_other_nappe(const NappeSteps& nappe, LayerPair& corners, Layers& missed) {
-    if (nappe.all_positive(4)) return;
     const auto value = [&](int i, int j, int k) { return nappe.at(i, j, k); };
     const Layers negative = corners_one_by_one(value, 0.0).in;
     corners.out = corners.out | (corners.in & negative);
@@ -133,10 +132,35 @@ Layers any_axis(const std::array<std::uint32_t, 3>& bits, std::uint32_t count) {
     return layers;
 }
 
+// Weights of tangents are products of components, so coefficients are brought to a size whose squares single precision
+// holds: those of quadrics are about one or less, those of planes up to 2^63.
+constexpr float plane_scale = 0x1p-48F;
+
+BrickSurface seen_from_brick(const PlaneSteps& p) {
+    BrickSurface s;
+    s.low = p.at_low * plane_scale;
+    s.x = p.sx * plane_scale, s.y = p.sy * plane_scale, s.z = p.sz * plane_scale;
+    s.error = p.error(4) * plane_scale + underflow;
+    s.slope = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
+    return s;
+}
+
+BrickSurface seen_from_brick(const QuadricSteps& q, float error) {
+    BrickSurface s;
+    s.low = q.low, s.x = q.x, s.y = q.y, s.z = q.z;
+    s.xx = q.xx, s.yy = q.yy, s.zz = q.zz, s.xy = q.xy, s.xz = q.xz, s.yz = q.yz;
+    s.error = error;
+    const float x = q.x + 4 * q.xx + 2 * (q.xy + q.xz), y = q.y + 4 * q.yy + 2 * (q.xy + q.yz),
+                z = q.z + 4 * q.zz + 2 * (q.xz + q.yz);
+    s.slope = std::sqrt(x * x + y * y + z * z);
+    return s;
+}
+
 }  // namespace
 
-BrickSides brick_sides(const LatticePlane& plane, const octree::Cell& brick) {
+BrickSides brick_sides(const LatticePlane& plane, const octree::Cell& brick, BrickSurface& surface) {
     const PlaneSteps p(plane, brick, brick.side() / 4);
+    surface = seen_from_brick(p);
     CornerSides sides(p.error(4));
     const Floats column = p.at_low + corner_z * p.sz;
     for (std::uint32_t j = 0; j < 5; ++j) {
@@ -153,12 +177,13 @@ BrickSides brick_sides(const LatticePlane& plane, const octree::Cell& brick) {
     return result;
 }
 
-BrickSides brick_sides(const Quadric& quadric, const octree::Cell& brick) {
+BrickSides brick_sides(const Quadric& quadric, const octree::Cell& brick, BrickSurface& surface) {
     const Offset offset(quadric.origin, brick);
     const double quarter = 0.25 * brick.side(), error = quadric.error(offset.farthest);
     const QuadricAtCorner corner(quadric, offset.low);
     const QuadricSteps q(quadric, corner, quarter, 4);
     const float rounding = single_error * q.size + (static_cast<float>(error) * 1.0001F + underflow);
+    surface = seen_from_brick(q, rounding);
     BrickSides result;
     result.corners = corners_of(q, rounding);
     if (!all_known(result.corners))
@@ -167,8 +192,12 @@ BrickSides brick_sides(const Quadric& quadric, const octree::Cell& brick) {
             error);
     const auto drop = static_cast<float>(0.5 * quarter * quadric.axis_reach);
     result.white = above_tangent(q, 4 * rounding + drop * drop * 1.0001F);
-    if (quadric.axis_reach != 0)
-        leave_other_nappe(NappeSteps(quadric, offset, quarter), result.corners, result.white);
+    surface.bend = 4 * drop * drop * 1.0001F;
+    if (quadric.axis_reach != 0) {
+        const NappeSteps nappe(quadric, offset, quarter);
+        surface.plain = nappe.all_positive(4);
+        if (!surface.plain) leave_other_nappe(nappe, result.corners, result.white);
+    }
     result.black = without(Layers::cells(), cells_with_corner(without(Layers::corners(), result.corners.in)));
     return result;
 }
@@ -188,6 +217,7 @@ BrickSides brick_sides(const LatticeTorus& torus, const octree::Cell& brick) {
 
 BrickSides brick_sides_of_box(const Leaf& leaf, const octree::Cell& brick) {
     const int shift = std::countr_zero(static_cast<std::uint32_t>(brick.side())) - 2;
+    const bool is_box = leaf.kind == LeafKind::box;
     std::array<std::uint32_t, 3> outside{}, not_inside{}, white{}, not_black{};
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
@@ -198,13 +228,16 @@ BrickSides brick_sides_of_box(const Leaf& leaf, const octree::Cell& brick) {
         const std::int64_t low_down = low >> shift, low_up = (low + up) >> shift;
         const std::int64_t high_down = high >> shift, high_up = (high + up) >> shift;
         outside[a] = below(low_up, 5) | (below(5, 5) & ~below(high_down + 1, 5));
-        not_inside[a] = below(low_down + 1, 5) | (below(5, 5) & ~below(high_up, 5));
         white[a] = below(low_down, 4) | (below(4, 4) & ~below(high_up, 4));
+        if (!is_box) continue;
+        not_inside[a] = below(low_down + 1, 5) | (below(5, 5) & ~below(high_up, 5));
         not_black[a] = below(low_up, 4) | (below(4, 4) & ~below(high_down, 4));
     }
     BrickSides result;
-    result.corners = {any_axis(outside, 5), without(Layers::corners(), any_axis(not_inside, 5))};
+    result.corners.out = any_axis(outside, 5);
     result.white = any_axis(white, 4);
+    if (!is_box) return result;
+    result.corners.in = without(Layers::corners(), any_axis(not_inside, 5));
     result.black = without(Layers::cells(), any_axis(not_black, 4));
     return result;
 }

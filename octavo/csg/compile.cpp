@@ -6,17 +6,17 @@
 #include <variant>
 
 #include <octavo/csg/compile_leaf.hpp>
+#include <octavo/csg/form_bounds.hpp>
 
 namespace octavo::csg {
 namespace {
 
 /// How far the meshes of a form reach, which must stay within LatticePolyhedron::reach.
-Box3 polyhedra_bounds(const NormalForm& form) {
+Box3 polyhedra_bounds(const NormalForm& form, const FormBounds& bounds) {
     Box3 box;
-    for (const PlacedPrimitive& leaf : form.leaves) {
-        const auto* polyhedron = std::get_if<Polyhedron>(&leaf.primitive);
-        if (polyhedron && polyhedron->convexity == Convexity::any)
-            box.add(bounds(leaf.primitive, leaf.place));
+    for (std::size_t i = 0; i < form.leaves.size(); ++i) {
+        const auto* polyhedron = std::get_if<Polyhedron>(&form.leaves[i].primitive);
+        if (polyhedron && polyhedron->convexity == Convexity::any) box.add(bounds.leaves[i]);
     }
     return box;
 }
@@ -141,14 +141,17 @@ class WordWriter {
 /// Room for what the leaves become at most: growing in steps would touch, and let the system clear, twice the memory.
 void reserve(const NormalForm& form, Program& program) {
     std::size_t planes = 0, cones = 0;
-    for (const PlacedPrimitive& leaf : form.leaves) {
-        const Primitive& primitive = leaf.primitive;
+    std::size_t leaves = 0;
+    for (const NormalToken& token : form.tokens) {
+        if (token.kind != NormalKind::leaf) continue;
+        const Primitive& primitive = form.leaves[token.leaf].primitive;
+        ++leaves;
         if (std::holds_alternative<Cuboid>(primitive)) planes += 6;
         if (std::holds_alternative<HalfSpace>(primitive)) planes += 1;
         if (std::holds_alternative<Frustum>(primitive)) planes += 2;
         cones += std::holds_alternative<Frustum>(primitive) || std::holds_alternative<Ball>(primitive);
     }
-    program.leaves.reserve(form.leaves.size());
+    program.leaves.reserve(leaves);
     program.planes.reserve(planes);
     program.cones.reserve(cones);
     program.quadrics.reserve(cones);
@@ -163,25 +166,32 @@ bool is_bounded(const Box3& box) { return octavo::is_finite(box.low) && octavo::
 Result<Program> compile(const Expr& expression, const CompileOptions& options, const Context& context) {
     Result<NormalForm> form = normal_form(expression, options.normal_form);
     if (!form) return form.error();
-    Box3 content = options.universe ? *options.universe : bounds(*form);
+    const FormBounds bounds = form_bounds(*form);
+    Box3 content = options.universe ? *options.universe : bounds.box();
     Program program;
     if (content.empty() && !options.universe)
         content = {{0, 0, 0}, {1, 1, 1}};  // of an empty solid any will do
     if (!is_bounded(content))
         return Error{ErrorCode::limit, "the solid is unbounded; say which part of space to look at", {}};
-    Result<exact::Lattice> lattice = fit_lattice(content, polyhedra_bounds(*form));
+    Result<exact::Lattice> lattice = fit_lattice(content, polyhedra_bounds(*form, bounds));
     if (!lattice) return lattice.error();
     program.lattice = *lattice;
+    program.primitives = form->leaves.size();
 
+    // Putting a primitive on the lattice moves it by less than two units.
+    if (options.primitives == CompileOptions::Primitives::within_reach)
+        drop_out_of_reach(*form, bounds, 2 * program.lattice.unit());
     reserve(*form, program);
     LeafCompiler compiler(program);
-    std::vector<CompiledLeaf> leaves;
-    leaves.reserve(form->leaves.size());
-    for (const PlacedPrimitive& placed : form->leaves) {
-        if (leaves.size() % 4096 == 0 && context.cancelled()) return Context::cancelled_error();
-        Result<CompiledLeaf> compiled = compiler.compile(placed);
+    std::vector<CompiledLeaf> leaves(form->leaves.size());
+    // Backwards in the tokens is forwards in the leaves.
+    for (std::size_t i = form->tokens.size(); i-- > 0;) {
+        const NormalToken& token = form->tokens[i];
+        if (i % 4096 == 0 && context.cancelled()) return Context::cancelled_error();
+        if (token.kind != NormalKind::leaf) continue;
+        Result<CompiledLeaf> compiled = compiler.compile(form->leaves[token.leaf], bounds.leaves[token.leaf]);
         if (!compiled) return compiled.error();
-        leaves.push_back(*compiled);
+        leaves[token.leaf] = *compiled;
     }
     WordWriter(program, *form, std::move(leaves)).write();
     return program;

@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -81,7 +83,8 @@ class LeafCompiler::Primitives {
 
     explicit Primitives(Program& program) : program_(program) {}
 
-    Result<Compiled> compile(const PlacedPrimitive& placed) {
+    Result<Compiled> compile(const PlacedPrimitive& placed, const Box3& bounds) {
+        bounds_ = bounds;
         return std::visit([&](const auto& primitive) { return put(primitive, placed.place); },
                           placed.primitive);
     }
@@ -100,12 +103,12 @@ class LeafCompiler::Primitives {
         return static_cast<std::int32_t>(std::clamp(value, 0.0, static_cast<double>(exact::universe_side)));
     }
 
-    /// A leaf whose box holds all lattice points that the world box can reach, with a unit to spare for what
+    /// A leaf whose box holds all lattice points that the primitive's bounds can reach, with a unit to spare for what
     /// snapping moves. Empty when that misses the universe.
-    std::optional<Leaf> leaf_within(LeafKind kind, const Box3& world) const {
+    std::optional<Leaf> leaf_within(LeafKind kind) const {
         Leaf leaf;
         leaf.kind = kind;
-        const Vec3 low = to_lattice(world.low), high = to_lattice(world.high);
+        const Vec3 low = to_lattice(bounds_.low), high = to_lattice(bounds_.high);
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             leaf.low[a] = clamped(std::floor(low[axis]) - 1);
@@ -143,7 +146,7 @@ class LeafCompiler::Primitives {
             add_plane(normal, low);
             add_plane(-normal, high);
         }
-        return end_convex(bounds(cuboid, place), place(0.5 * (cuboid.low + cuboid.high)));
+        return end_convex(place(0.5 * (cuboid.low + cuboid.high)));
     }
 
     Result<Compiled> put(const HalfSpace& half_space, const Affine& place) {
@@ -160,8 +163,7 @@ class LeafCompiler::Primitives {
         }
         begin_convex();
         add_plane(normal, to_lattice(through));
-        constexpr double infinity = Box3::infinity;
-        return end_convex({{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}}, through);
+        return end_convex(through);
     }
 
     Result<Compiled> put(const Ball& ball, const Affine& place) {
@@ -169,7 +171,7 @@ class LeafCompiler::Primitives {
         SecondOrderCone cone = local_frame(place, {}, 1 / static_cast<long double>(ball.radius), 3);
         cone.row[3][3] = 1;
         add_cone(cone);
-        return end_convex(bounds(ball, place), place({}));
+        return end_convex(place({}));
     }
 
     Result<Compiled> put(const Frustum& frustum, const Affine& place) {
@@ -190,11 +192,11 @@ class LeafCompiler::Primitives {
         if (place.determinant() < 0) normal = -normal;
         add_plane(normal, to_lattice(place({0, 0, frustum.low})));
         add_plane(-normal, to_lattice(place({0, 0, frustum.high})));
-        return end_convex(bounds(frustum, place), place(middle));
+        return end_convex(place(middle));
     }
 
     Result<Compiled> put(const Torus& torus, const Affine& place) {
-        std::optional<Leaf> leaf = leaf_within(LeafKind::torus, bounds(torus, place));
+        std::optional<Leaf> leaf = leaf_within(LeafKind::torus);
         if (!leaf) return Compiled{};
         const SecondOrderCone frame = local_frame(place, {}, 1, 3);
         LatticeTorus on_lattice;
@@ -219,7 +221,7 @@ class LeafCompiler::Primitives {
     }
 
     Result<Compiled> put_mesh(const Polyhedron& polyhedron, const Affine& place) {
-        std::optional<Leaf> leaf = leaf_within(LeafKind::polyhedron, bounds(polyhedron, place));
+        std::optional<Leaf> leaf = leaf_within(LeafKind::polyhedron);
         if (!leaf) return Compiled{};
         Result<LatticePolyhedron> snapped = snap_polyhedron(*polyhedron.mesh, place, program_.lattice);
         if (!snapped) return snapped.error();
@@ -247,9 +249,45 @@ class LeafCompiler::Primitives {
             add_plane(inward, to_lattice(points[neighbours.farthest(points, -inward, triangle[0])]));
         }
         merge_planes();
+        if (const std::optional<std::uint32_t> known = equal_body()) {
+            forget_body();
+            return Compiled{*known, false};
+        }
         Vec3 mean;
         for (const Vec3& point : points) mean = mean + (1 / static_cast<double>(points.size())) * point;
-        return end_convex(bounds(polyhedron, place), mean);
+        const std::uint64_t hash = hash_of_planes();
+        const Compiled compiled = end_convex(mean);
+        if (compiled.leaf) bodies_.emplace(hash, *compiled.leaf);
+        return compiled;
+    }
+
+    std::span<const LatticePlane> present_planes() const {
+        return std::span(program_.planes).subspan(first_plane_);
+    }
+    std::uint64_t hash_of_planes() const {
+        std::uint64_t hash = 0;
+        const auto mix = [&](std::int64_t number) {
+            hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9E3779B97F4A7C15;
+            hash ^= hash >> 32;
+        };
+        for (const LatticePlane& plane : present_planes()) {
+            for (const std::int64_t component : plane.normal) mix(component);
+            mix(plane.offset);
+        }
+        return hash;
+    }
+    /// A convex polyhedron with the planes of the present one. Two such are one leaf, so that they meet without a trace
+    /// however many facets they have.
+    std::optional<std::uint32_t> equal_body() const {
+        const std::span<const LatticePlane> planes = present_planes();
+        const auto [begin, end] = bodies_.equal_range(hash_of_planes());
+        for (auto candidate = begin; candidate != end; ++candidate) {
+            const Leaf& leaf = program_.leaves[candidate->second];
+            const LatticePlane* const first = program_.planes.data() + program_.constraints[leaf.first];
+            if (leaf.count == planes.size() && std::equal(planes.begin(), planes.end(), first))
+                return candidate->second;
+        }
+        return {};
     }
 
     /// Rows that take lattice differences to `origin` to the primitive's own frame about `middle`, scaled.
@@ -304,12 +342,15 @@ class LeafCompiler::Primitives {
         for (std::size_t i = first_plane_; i < program_.planes.size(); ++i)
             program_.constraints.push_back(static_cast<std::uint32_t>(i));
     }
-    Compiled end_convex(const Box3& world, Vec3 inside) {
-        const std::optional<Leaf> leaf = leaf_within(LeafKind::convex, world);
+    void forget_body() {
+        program_.constraints.resize(first_constraint_);
+        program_.planes.resize(first_plane_);
+    }
+    Compiled end_convex(Vec3 inside) {
+        const std::optional<Leaf> leaf = leaf_within(LeafKind::convex);
         const std::size_t count = program_.constraints.size() - first_constraint_;
         if (empty_ || !leaf) {
-            program_.constraints.resize(first_constraint_);
-            program_.planes.resize(first_plane_);
+            forget_body();
             return {};
         }
         if (count == 0) return {{}, true};
@@ -324,6 +365,9 @@ class LeafCompiler::Primitives {
 
     Program& program_;
     std::map<std::pair<const mesh::Mesh*, std::array<std::array<double, 4>, 3>>, Compiled> meshes_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t>
+        bodies_;   // convex polyhedra, by the hash of their planes
+    Box3 bounds_;  // of the present primitive, in the world
     std::size_t first_constraint_ = 0, first_plane_ = 0;
     bool empty_ = false;
 };
@@ -332,8 +376,8 @@ LeafCompiler::LeafCompiler(Program& program) : primitives_(std::make_unique<Prim
 
 LeafCompiler::~LeafCompiler() = default;
 
-Result<CompiledLeaf> LeafCompiler::compile(const PlacedPrimitive& placed) {
-    return primitives_->compile(placed);
+Result<CompiledLeaf> LeafCompiler::compile(const PlacedPrimitive& placed, const Box3& bounds) {
+    return primitives_->compile(placed, bounds);
 }
 
 }  // namespace octavo::csg

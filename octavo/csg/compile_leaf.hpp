@@ -26,8 +26,8 @@ class LeafCompiler {
     explicit LeafCompiler(Program& program);
     ~LeafCompiler();
 
-    /// Errors: limit when a mesh reaches too far.
-    Result<CompiledLeaf> compile(const PlacedPrimitive& placed);
+    /// `bounds` are those of the placed primitive in the world. Errors: limit when a mesh reaches too far.
+    Result<CompiledLeaf> compile(const PlacedPrimitive& placed, const Box3& bounds);
 
   private:
     class Primitives;

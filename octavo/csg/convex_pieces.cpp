@@ -7,6 +7,7 @@
 
 #include <octavo/csg/convex_hull.hpp>
 #include <octavo/csg/convex_pieces.hpp>
+#include <octavo/csg/form_bounds.hpp>
 #include <octavo/csg/normal_form.hpp>
 #include <octavo/csg/tessellate.hpp>
 

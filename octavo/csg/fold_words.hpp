@@ -43,15 +43,18 @@ Seen neutral(std::uint32_t w) {
     }
 }
 
+/// One more operand of an operation.
 template <class Seen>
-Seen fold(std::uint32_t w, const Seen& a, const Seen& b) {
+void fold_in(std::uint32_t w, Seen& seen, const Seen& operand) {
     switch (word::operation(w)) {
         case word::union_of:
-            return unite(a, b);
+            seen = unite(seen, operand);
+            break;
         case word::intersection:
-            return intersect(a, b);
+            seen = intersect(seen, operand);
+            break;
         default:
-            return symmetric_difference(a, b);
+            seen = symmetric_difference(seen, operand);
     }
 }
 
@@ -73,10 +76,9 @@ Seen fold_words(std::span<const std::uint32_t> words, const typename Seen::Cells
         if (at == around.end) {  // it goes to the operation around it as an operand
             note(around.word, around.seen);
             if (open.empty()) return around.seen;
-            const Seen seen = around.seen;
+            fold_in(words[open.back().word], open.back().seen, around.seen);
             around = open.back();
             open.pop_back();
-            around.seen = fold(words[around.word], around.seen, seen);
             continue;
         }
         const std::uint32_t w = words[at];
@@ -90,7 +92,7 @@ Seen fold_words(std::span<const std::uint32_t> words, const typename Seen::Cells
             around.seen.forget_points(word::operation(words[around.word]));
             at = around.end;
         } else if (word::is_leaf(w)) {
-            around.seen = fold(words[around.word], around.seen, see(at, needed));
+            fold_in(words[around.word], around.seen, see(at, needed));
             at += word::size(words.data() + at);
         } else {
             open.push_back(around);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <optional>
 
 // A brick: the 4 × 4 × 4 cells two levels below a cell, and their 5 × 5 × 5 corners, as bits of one SIMD register.
 //
@@ -76,21 +78,39 @@ struct BrickCell {
         return {2 * (outer & 1) + (inner & 1), 2 * (outer >> 1 & 1) + (inner >> 1 & 1),
                 2 * (outer >> 2 & 1) + (inner >> 2 & 1)};
     }
-    std::uint32_t bit() const { return x + 5 * y; }
+    constexpr std::uint32_t bit() const { return x + 5 * y; }
     bool in(const Layers& cells) const { return (cells.layer[z] >> bit() & 1) != 0; }
-    void add_to(Layers& cells) const { cells.layer[z] |= std::uint32_t{1} << bit(); }
+    constexpr void add_to(Layers& cells) const { cells.layer[z] |= std::uint32_t{1} << bit(); }
     void take_from(Layers& cells) const { cells.layer[z] &= ~(std::uint32_t{1} << bit()); }
 };
 
-/// The cells of one octant of the brick, one bit each in the order of its octants.
-inline std::uint8_t octant_of(const Layers& cells, unsigned outer) {
-    unsigned result = 0;
-    const unsigned shift = 2 * (outer & 1) + 10 * (outer >> 1 & 1);
-    for (unsigned k = 0; k < 2; ++k) {
-        const std::uint32_t square = cells.layer[2 * (outer >> 2 & 1) + k] >> shift;
-        result |= ((square & 3) | (square >> 3 & 0xC)) << (4 * k);
+/// Takes the first of some cells out of them; none when there is none.
+inline std::optional<BrickCell> take_first(Layers& cells) {
+    for (std::uint32_t z = 0; z < 4; ++z) {
+        std::uint32_t& square = cells.layer[z];
+        if (square == 0) continue;
+        const auto bit = static_cast<std::uint32_t>(std::countr_zero(square));
+        square &= square - 1;
+        return BrickCell{bit % 5, bit / 5, z};
     }
-    return static_cast<std::uint8_t>(result);
+    return {};
+}
+
+/// The 64 cells as bits in Morton order.
+inline std::uint64_t in_morton_order(const Layers& cells) {
+    std::array<std::uint32_t, 4> layer{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        std::uint32_t l = cells.layer[k];
+        // Rows of four bits without gaps; then squares of two by two, the bits of i / 2 and of j % 2 exchanged.
+        l = (l & 0xF) | (l >> 1 & 0xF0) | (l >> 2 & 0xF00) | (l >> 3 & 0xF000);
+        const std::uint32_t change = (l ^ l >> 2) & 0x0C0C;
+        l ^= change | change << 2;
+        // Room between squares for those of the layer above.
+        l = (l | l << 8) & 0x00FF00FF;
+        layer[k] = (l | l << 4) & 0x0F0F0F0F;
+    }
+    const std::uint32_t low = layer[0] | layer[1] << 4, high = layer[2] | layer[3] << 4;
+    return low | std::uint64_t{high} << 32;
 }
 
 }  // namespace octavo::csg

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <octavo/csg/classify.hpp>
 #include <octavo/csg/convex_overlap.hpp>
 #include <octavo/csg/flat_patch.hpp>
@@ -40,6 +42,15 @@ octree::Color LocalArrangement::resolve(const Program& program, std::span<const 
     program_ = &program;
     below_ = &below;
     cell_ = cell;
+    if (repeats_a_leaf(words)) {
+        const Color color = arrange(words, Variables::leaves);
+        if (is_decided(color)) return color;
+    }
+    return arrange(words, Variables::surfaces);
+}
+
+Color LocalArrangement::arrange(std::span<const std::uint32_t> words, Variables variables) {
+    variables_ = variables;
     nodes_.clear();
     literals_.clear();
     count_ = 0;
@@ -78,6 +89,22 @@ bool LocalArrangement::read(std::span<const std::uint32_t> words) {
     return true;
 }
 
+bool LocalArrangement::repeats_a_leaf(std::span<const std::uint32_t> words) {
+    seen_leaves_.clear();
+    for (std::size_t at = 0; at < words.size();) {
+        if (!word::is_leaf(words[at])) {
+            ++at;
+            continue;
+        }
+        const std::uint32_t leaf = word::leaf(words[at]);
+        if (std::find(seen_leaves_.begin(), seen_leaves_.end(), leaf) != seen_leaves_.end()) return true;
+        if (seen_leaves_.size() == most_surfaces) return false;
+        seen_leaves_.push_back(leaf);
+        at += word::size(words.data() + at);
+    }
+    return false;
+}
+
 bool LocalArrangement::read_leaf(std::span<const std::uint32_t> words, std::size_t at) {
     const std::uint32_t w = words[at];
     const Leaf& leaf = program_->leaves[word::leaf(w)];
@@ -94,6 +121,11 @@ bool LocalArrangement::read_leaf(std::span<const std::uint32_t> words, std::size
         nodes_.push_back({Node::Kind::constant, known.color == Color::black, 0, 0, 0, 0});
         return true;
     }
+    if (variables_ == Variables::leaves) {
+        node.count = 1;
+        nodes_.push_back(node);
+        return add_leaf(word::leaf(w));
+    }
     bool fits = true;
     switch (leaf.kind) {
         case LeafKind::box:
@@ -107,7 +139,7 @@ bool LocalArrangement::read_leaf(std::span<const std::uint32_t> words, std::size
             fits = add_torus(leaf.first);
             break;
         case LeafKind::polyhedron:
-            fits = read_polyhedron(leaf, items, node);
+            fits = read_polyhedron(word::leaf(w), items, node);
             break;
     }
     node.count = static_cast<std::uint32_t>(literals_.size()) - node.first;
@@ -158,7 +190,9 @@ bool LocalArrangement::read_convex(std::span<const std::uint32_t> constraints, b
     return true;
 }
 
-bool LocalArrangement::read_polyhedron(const Leaf& leaf, std::span<const std::uint32_t> items, Node& node) {
+bool LocalArrangement::read_polyhedron(std::uint32_t leaf_index, std::span<const std::uint32_t> items,
+                                       Node& node) {
+    const Leaf& leaf = program_->leaves[leaf_index];
     FlatPatch patch;
     if (items.size() >= 2)
         patch =
@@ -169,10 +203,7 @@ bool LocalArrangement::read_polyhedron(const Leaf& leaf, std::span<const std::ui
         return true;
     }
     if (patch.kind == FlatPatch::Kind::plane) return add_plane(patch.plane, true);
-    for (std::size_t s = 0; s < count_; ++s)
-        if (surfaces_[s].kind == LocalSurface::Kind::polyhedron && surfaces_[s].index == leaf.first)
-            return add_literal(s, true);
-    return add_surface({LocalSurface::Kind::polyhedron, leaf.first, {}});
+    return add_leaf(leaf_index);
 }
 
 // --- Surfaces ------------------------------------------------------------------------------------------------
@@ -200,6 +231,13 @@ bool LocalArrangement::add_torus(std::uint32_t index) {
             program_->tori[surfaces_[s].index] == program_->tori[index])
             return add_literal(s, true);
     return add_surface({LocalSurface::Kind::torus, index, {}});
+}
+
+bool LocalArrangement::add_leaf(std::uint32_t index) {
+    for (std::size_t s = 0; s < count_; ++s)
+        if (surfaces_[s].kind == LocalSurface::Kind::leaf && surfaces_[s].index == index)
+            return add_literal(s, true);
+    return add_surface({LocalSurface::Kind::leaf, index, {}});
 }
 
 bool LocalArrangement::add_surface(const LocalSurface& surface) {

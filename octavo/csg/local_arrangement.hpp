@@ -22,7 +22,8 @@
 // What holds: white and black are right. For flat primitives gray is right too, except where `overlap` is unsure
 // or a limit below is met. Curved surfaces that coincide are recognised; that two *different* quadrics have no
 // common point outside both is not looked for, so gray may remain where they touch.
-// A mesh takes part when all its triangles in the cell lie in one plane: being closed, it is then a half space,
+// A leaf that occurs more than once is first tried as one variable: a body less itself is nothing, however many facets
+// it has. A mesh takes part when all its triangles in the cell lie in one plane: being closed, it is then a half space,
 // or constant. Otherwise it is one variable of its own. A convex body whose interior `overlap` shows to keep off the
 // cell is no variable at all.
 // Cost: at most `most_combinations` calls of `overlap`, typically two to six; second_look.hpp asks only when nothing
@@ -30,12 +31,12 @@
 
 namespace octavo::csg {
 
-inline constexpr std::size_t most_surfaces = 16;
+inline constexpr std::size_t most_surfaces = 24;
 inline constexpr int most_combinations = 256;
 
 /// A surface in the cell, on which a point lies strictly inside (true) or strictly outside (false).
 struct LocalSurface {
-    enum class Kind : std::uint8_t { plane, cone, torus, polyhedron } kind = Kind::plane;
+    enum class Kind : std::uint8_t { plane, cone, torus, leaf } kind = Kind::plane;
     std::uint32_t index = 0;  ///< in the program; not of a plane
     LatticePlane plane;
 };
@@ -65,15 +66,21 @@ class LocalArrangement {
         octree::Color color;
     };
 
+    /// What the Boolean variables are: whole leaves, of whose shape nothing is asked, or their surfaces.
+    enum class Variables : std::uint8_t { leaves, surfaces };
+    octree::Color arrange(std::span<const std::uint32_t> words, Variables variables);
+    bool repeats_a_leaf(std::span<const std::uint32_t> words);
+
     bool read(std::span<const std::uint32_t> words);
     bool read_leaf(std::span<const std::uint32_t> words, std::size_t at);
     bool read_box(const Leaf& leaf);
     bool keeps_off(std::span<const std::uint32_t> constraints) const;
     bool read_convex(std::span<const std::uint32_t> constraints, bool met, Node& node);
-    bool read_polyhedron(const Leaf& leaf, std::span<const std::uint32_t> items, Node& node);
+    bool read_polyhedron(std::uint32_t leaf_index, std::span<const std::uint32_t> items, Node& node);
     bool add_plane(const LatticePlane& plane, bool value);
     bool add_cone(std::uint32_t index);
     bool add_torus(std::uint32_t index);
+    bool add_leaf(std::uint32_t index);
     bool add_surface(const LocalSurface& surface);
     bool add_literal(std::size_t surface, bool value);
 
@@ -85,6 +92,8 @@ class LocalArrangement {
     const Program* program_ = nullptr;
     const Pruner* below_ = nullptr;
     octree::Cell cell_;
+    Variables variables_ = Variables::surfaces;
+    std::vector<std::uint32_t> seen_leaves_;
     std::vector<Node> nodes_;
     std::vector<Literal> literals_;
     std::vector<Open> open_;

@@ -253,45 +253,4 @@ Result<NormalForm> normal_form(const Expr& expression, const NormalFormOptions& 
     return Normaliser(options).run(expression);
 }
 
-Box3 bounds(const NormalForm& form) {
-    constexpr double infinity = Box3::infinity;
-    const Box3 whole{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
-    // Backwards, so that the operands of an operation lie on the stack when it is reached.
-    struct Operand {
-        Box3 box;
-        std::uint32_t size;
-    };
-    std::vector<Operand> stack;
-    for (std::size_t index = form.tokens.size(); index-- > 0;) {
-        const NormalToken& token = form.tokens[index];
-        Box3 box;
-        if (token.kind == NormalKind::leaf) {
-            const PlacedPrimitive& leaf = form.leaves[token.leaf];
-            box = token.complemented ? whole : bounds(leaf.primitive, leaf.place);
-        } else if (token.kind == NormalKind::constant) {
-            box = token.complemented ? whole : Box3{};
-        } else {
-            const bool meet = token.kind == NormalKind::intersection;
-            if (meet) box = whole;
-            for (std::uint32_t left = token.size - 1; left > 0;) {
-                const Operand operand = stack.back();
-                stack.pop_back();
-                left -= operand.size;
-                if (!meet) {
-                    box.add(operand.box);
-                    continue;
-                }
-                for (int axis = 0; axis < 3; ++axis) {
-                    box.low[axis] = std::max(box.low[axis], operand.box.low[axis]);
-                    box.high[axis] = std::min(box.high[axis], operand.box.high[axis]);
-                }
-                if (box.empty()) box = {};
-            }
-            if (token.kind == NormalKind::symmetric_difference && token.complemented) box = whole;
-        }
-        stack.push_back({box, token.size});
-    }
-    return stack.back().box;
-}
-
 }  // namespace octavo::csg

@@ -58,8 +58,4 @@ struct NormalFormOptions {
 /// Errors: bad_input when a parameter or a matrix is not finite; limit.
 Result<NormalForm> normal_form(const Expr& expression, const NormalFormOptions& options = {});
 
-/// The smallest box that the rules of the operations give from the bounds of the leaves: those of a union add,
-/// those of an intersection meet. Infinite where a complement, a half space or everything shows through.
-Box3 bounds(const NormalForm& form);
-
 }  // namespace octavo::csg

@@ -75,6 +75,7 @@ struct Program {
     exact::Lattice lattice;
     std::vector<std::uint32_t> words;  ///< empty when the expression is `constant`
     bool constant = false;             ///< with no words: everything or nothing
+    std::size_t primitives = 0;        ///< of the expression, whether or not they reach the result
     std::vector<Leaf> leaves;
     std::vector<std::uint32_t> constraints;
     std::vector<LatticePlane> planes;
@@ -94,6 +95,9 @@ struct CompileOptions {
     /// those are infinite.
     std::optional<Box3> universe;
     NormalFormOptions normal_form;
+    /// Which primitives become leaves: those that can reach the result by their bounding boxes (form_bounds.hpp), or
+    /// all. The solid is the same.
+    enum class Primitives : std::uint8_t { within_reach, all } primitives = Primitives::within_reach;
 };
 
 /// Puts an expression on a lattice. Errors: bad_input when a number is not finite; limit when the expression is

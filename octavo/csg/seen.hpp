@@ -62,9 +62,13 @@ struct BrickSeen {
 
     LayerPair cells;    ///< white and black
     LayerPair corners;  ///< outside and inside
+    LayerPair
+        reached;  ///< cells with some point outside, and with some point inside; a corner need not be marked
 
-    static BrickSeen none() { return {{Layers::cells(), {}}, {Layers::corners(), {}}}; }
-    static BrickSeen all() { return {{{}, Layers::cells()}, {{}, Layers::corners()}}; }
+    static BrickSeen none() {
+        return {{Layers::cells(), {}}, {Layers::corners(), {}}, {Layers::cells(), {}}};
+    }
+    static BrickSeen all() { return {{{}, Layers::cells()}, {{}, Layers::corners()}, {{}, Layers::cells()}}; }
 
     static bool any(const Cells& cells) { return cells.any(); }
     Cells unsettled(word::Operation operation, const Cells& needed) const {
@@ -73,18 +77,39 @@ struct BrickSeen {
     }
     void forget_points(word::Operation operation) {
         (operation == word::union_of ? corners.out : corners.in) = {};
+        (operation == word::union_of ? reached.out : reached.in) = {};
     }
     Layers gray() const { return without(without(Layers::cells(), cells.out), cells.in); }
+    /// Cells that no two of their points prove to be gray.
+    Layers unproved() const {
+        return without(gray(), (reached.out | cells_with_corner(corners.out)) &
+                                   (reached.in | cells_with_corner(corners.in)));
+    }
 };
-inline BrickSeen complement(const BrickSeen& a) { return {complement(a.cells), complement(a.corners)}; }
+inline BrickSeen complement(const BrickSeen& a) {
+    return {complement(a.cells), complement(a.corners), complement(a.reached)};
+}
+/// A point inside one is inside the union; one outside one is outside the union where the other is white.
 inline BrickSeen unite(const BrickSeen& a, const BrickSeen& b) {
-    return {unite(a.cells, b.cells), unite(a.corners, b.corners)};
+    return {unite(a.cells, b.cells),
+            unite(a.corners, b.corners),
+            {(a.reached.out & b.cells.out) | (b.reached.out & a.cells.out), a.reached.in | b.reached.in}};
 }
 inline BrickSeen intersect(const BrickSeen& a, const BrickSeen& b) {
-    return {intersect(a.cells, b.cells), intersect(a.corners, b.corners)};
+    return {intersect(a.cells, b.cells),
+            intersect(a.corners, b.corners),
+            {a.reached.out | b.reached.out, (a.reached.in & b.cells.in) | (b.reached.in & a.cells.in)}};
 }
 inline BrickSeen symmetric_difference(const BrickSeen& a, const BrickSeen& b) {
-    return {symmetric_difference(a.cells, b.cells), symmetric_difference(a.corners, b.corners)};
+    const auto where_other_is_decided = [](const LayerPair& reached, const LayerPair& cells) {
+        return LayerPair{(reached.out & cells.out) | (reached.in & cells.in),
+                         (reached.out & cells.in) | (reached.in & cells.out)};
+    };
+    const LayerPair of_a = where_other_is_decided(a.reached, b.cells),
+                    of_b = where_other_is_decided(b.reached, a.cells);
+    return {symmetric_difference(a.cells, b.cells),
+            symmetric_difference(a.corners, b.corners),
+            {of_a.out | of_b.out, of_a.in | of_b.in}};
 }
 
 }  // namespace octavo::csg

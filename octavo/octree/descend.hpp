@@ -42,6 +42,12 @@
 //     // Copies the cell's bulk data to another workspace.
 //     Description transfer(const Cell&, const Description&, const Workspace& from, Workspace& to) const;
 //
+// and perhaps
+//
+//     static constexpr int finished_levels = 2;            // cells this far above the last level are not split …
+//     Node finish(const Cell&, const Description&, Workspace&, Output&) const;   // … but given to the output with
+//                                                          // all below them; returns the common colour, or split
+//
 // and an output one with
 //
 //     void split(const Cell&, const Description&, const Workspace&);   // a node; what lies in it follows
@@ -147,6 +153,8 @@ class DfOutput {
         code_.append(nodes, 8);
         return nodes == 0 ? Node::white : nodes == 0x5555 ? Node::black : Node::split;
     }
+    /// A cell with all that is two levels below it; returns as `leaves` does.
+    Node finish(const GrandchildColors& colors) { return code_.append(colors); }
     void merge(const Cell&, Color color) {
         code_.truncate(code_.size() - 9);
         code_.append(leaf_of(color));
@@ -229,6 +237,8 @@ class Descent {
         { output.leaves(cell, children, workspace) } -> std::same_as<Node>;
     };
 
+    static constexpr bool finishes = requires { Problem::finished_levels; };
+
     /// Visits a cell that is split; returns the colour of all of it when its leaves could be merged, else
     /// split.
     template <bool may_fork>
@@ -238,6 +248,12 @@ class Descent {
         if (context_.cancelled()) {
             cancelled_ = true;
             return Node::split;
+        }
+        if constexpr (finishes) {
+            if (cell.level + Problem::finished_levels == depth_) {
+                if (share != 0) progress_.add(share);
+                return problem_.finish(cell, description, workspace, output);
+            }
         }
         Children<Description> children;
         output.split(cell, description, workspace);

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 
 #include <octavo/octree/df_code.hpp>
 
 namespace octavo::octree {
+namespace {
+
+/// The bits of a byte with a zero after each.
+constexpr std::array<std::uint16_t, 256> two_apart = [] {
+    std::array<std::uint16_t, 256> table{};
+    for (unsigned byte = 0; byte < 256; ++byte)
+        for (unsigned bit = 0; bit < 8; ++bit)
+            if (byte >> bit & 1) table[byte] = static_cast<std::uint16_t>(table[byte] | 1U << (2 * bit));
+    return table;
+}();
+
+}  // namespace
 
 void DfCode::append(const DfCode& other) {
     if (other.empty()) return;
@@ -19,6 +32,33 @@ void DfCode::append(const DfCode& other) {
     }
     size_ += other.size_;
     words_.resize((size_ + nodes_per_word - 1) / nodes_per_word);
+}
+
+Node DfCode::append(const GrandchildColors& colors) {
+    if (colors.white == ~std::uint64_t{0} || colors.black == ~std::uint64_t{0}) {
+        const Node node = colors.black ? Node::black : Node::white;
+        append(node);
+        return node;
+    }
+    std::uint64_t nodes = static_cast<std::uint64_t>(Node::split);
+    std::size_t count = 1;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+        // Which octants are of one colour changes from cell to cell, so no branch asks.
+        const auto white = static_cast<std::uint8_t>(colors.white >> (8 * octant));
+        const auto black = static_cast<std::uint8_t>(colors.black >> (8 * octant));
+        const bool leaf = white == 0xFF || black == 0xFF;
+        const std::uint32_t gray = two_apart[static_cast<std::uint8_t>(~(white | black))];
+        const std::uint32_t split = 3U | (two_apart[black] | gray << 1) << 2;
+        nodes |= std::uint64_t{leaf ? black & 1U : split} << (2 * count);
+        count += leaf ? 1 : 9;
+        // Three octants are at most 27 nodes, and with the first 28.
+        if (octant % 3 == 2 || octant == 7) {
+            append(nodes, count);
+            nodes = 0;
+            count = 0;
+        }
+    }
+    return Node::split;
 }
 
 void DfCode::truncate(std::size_t size) {

@@ -30,6 +30,11 @@ constexpr bool is_leaf(Node node) { return node != Node::split; }
 constexpr Color color_of(Node leaf) { return static_cast<Color>(leaf); }
 constexpr Node leaf_of(Color color) { return static_cast<Node>(color); }
 
+/// Colours of the 64 cells two levels below a cell in Morton order, one bit each; gray where neither is set.
+struct GrandchildColors {
+    std::uint64_t white = 0, black = 0;
+};
+
 class DfCode {
   public:
     static constexpr std::size_t nodes_per_word = 32;
@@ -58,6 +63,9 @@ class DfCode {
         size_ += count;
     }
     void append(const DfCode& other);
+    /// Appends a node with what is two levels below it. Octants that are all white or all black become one leaf, and
+    /// so does the node, whose colour is returned then, else split.
+    Node append(const GrandchildColors& colors);
 
     /// Forgets all nodes but the first `size`.
     void truncate(std::size_t size);

@@ -189,6 +189,26 @@ TEST(CsgWalls, WhatIsCutOutAndPutBackLeavesNone) {
     }
 }
 
+TEST(CsgWalls, BodiesOfManyFacetsLeaveNoneWhereTheyAreTakenFromThemselves) {
+    RandomSolids random(16);
+    const Expr block = box({-2, -2, -2}, {2, 2, 2});
+    for (int round = 0; round < 6; ++round) {
+        std::vector<Vec3> points;
+        for (int i = 0; i < 60; ++i) {
+            Vec3 p{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+            points.push_back((1 / length(p)) * p);
+        }
+        const auto mesh = std::make_shared<mesh::Mesh>(*csg::convex_hull(points));
+        const auto copy = std::make_shared<mesh::Mesh>(*mesh);  // equal, and not the same
+        const Affine map = random.map();
+        const Expr plug = csg::transform(map, Expr(csg::Polyhedron{mesh, csg::Convexity::convex})),
+                   same = csg::transform(map, Expr(csg::Polyhedron{copy, csg::Convexity::convex}));
+        expect_no_wall(csg::subtract({plug, same}), csg::nothing(), 5);
+        expect_no_wall(csg::unite({csg::subtract({block, plug}), csg::intersect({same, block})}), block, 5);
+        expect_no_wall(csg::symmetric_difference({plug, block, same}), block, 5);
+    }
+}
+
 TEST(CsgWalls, StackedAndCoaxialCylindersLeaveNone) {
     const Affine map = turned(0.7, 0.2, 0.5, {0.1, 0.2, 0.3});
     const auto cylinder = [](double low, double high, double r) {

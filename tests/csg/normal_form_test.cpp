@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include <octavo/csg/form_bounds.hpp>
 #include <octavo/csg/normal_form.hpp>
 
 #include "random_solids.hpp"
@@ -92,6 +94,57 @@ TEST(NormalForm, KeepsTheMembershipOfEveryPoint) {
             }
         }
     }
+}
+
+TEST(FormBounds, WhatIsOutOfReachCanGo) {
+    RandomSolids random(12);
+    std::size_t before = 0, after = 0;
+    for (int round = 0; round < 300; ++round) {
+        // Far enough apart that many operands do nothing.
+        std::vector<Expr> operands;
+        for (int i = 2 + random.below(4); i > 0; --i) {
+            Affine shift;
+            for (std::size_t axis = 0; axis < 3; ++axis) shift.m[axis][3] = random.uniform(-4, 4);
+            operands.push_back(transform(shift, random.tree(1 + random.below(5))));
+        }
+        const Expr expression = random.below(2)   ? subtract(operands)
+                                : random.below(2) ? unite({subtract(operands), intersect(operands)})
+                                                  : symmetric_difference({operands[0], subtract(operands)});
+        Result<NormalForm> form = normal_form(expression);
+        ASSERT_TRUE(form);
+        before += form->tokens.size();
+        drop_out_of_reach(*form, form_bounds(*form), 1e-6);
+        for (const NormalToken& token : form->tokens) after += token.kind != NormalKind::constant;
+        for (int i = 0; i < 60; ++i) {
+            const Vec3 p{random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(-6, 6)};
+            std::size_t at = 0;
+            const Side expected = tests::side(expression, p, 1e-9), actual = side(*form, at, p);
+            EXPECT_EQ(at, form->tokens.size());
+            if (expected != Side::unsure && actual != Side::unsure) {
+                EXPECT_EQ(actual, expected);
+            }
+        }
+    }
+    EXPECT_LT(after, before * 3 / 4);
+}
+
+TEST(FormBounds, BodiesThatTouchStayAndBodiesApartGo) {
+    const auto box_at = [](double x) { return Expr(Cuboid{{x, 0, 0}, {x + 1, 1, 1}}); };
+    const auto leaves_left = [](const Expr& expression) {
+        Result<NormalForm> form = normal_form(expression);
+        drop_out_of_reach(*form, form_bounds(*form), 0.01);
+        return std::count_if(form->tokens.begin(), form->tokens.end(),
+                             [](const NormalToken& token) { return token.kind == NormalKind::leaf; });
+    };
+    EXPECT_EQ(leaves_left(subtract({box_at(0), box_at(1)})), 2) << "faces in one plane are within the margin";
+    EXPECT_EQ(leaves_left(subtract({box_at(0), box_at(2)})), 1);
+    EXPECT_EQ(leaves_left(intersect({box_at(0), box_at(2)})), 0);
+    EXPECT_EQ(leaves_left(unite({box_at(0), box_at(2)})), 2);
+    EXPECT_EQ(leaves_left(intersect({unite({box_at(0), box_at(3)}), unite({box_at(0.5), box_at(9)})})), 3);
+    EXPECT_EQ(leaves_left(symmetric_difference({box_at(0), intersect({box_at(4), box_at(6)})})), 1);
+    EXPECT_EQ(leaves_left(complement(subtract({box_at(0), box_at(2)}))), 1);
+    EXPECT_EQ(leaves_left(subtract({box_at(0), subtract({box_at(0.5), box_at(4)})})), 2);
+    EXPECT_EQ(leaves_left(complement(symmetric_difference({box_at(0), complement(box_at(3))}))), 2);
 }
 
 TEST(NormalForm, ConstantsDisappear) {

@@ -5,8 +5,10 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
+#include <octavo/csg/body_in_cells.hpp>
 #include <octavo/csg/brick.hpp>
 #include <octavo/csg/brick_sides.hpp>
+#include <octavo/csg/convex_overlap.hpp>
 #include <octavo/csg/point_sides.hpp>
 #include <octavo/csg/prune.hpp>
 
@@ -129,7 +131,8 @@ TEST(PointSides, OfPlanesAreExact) {
         const Cell cell = random_cell(random, 0, 20);
         const LatticePlane plane = random_plane(random, cell);
         expect_right(plane, cell, sides_of(plane, cell), true);
-        const BrickSides brick = brick_sides(plane, cell);
+        BrickSurface surface;
+        const BrickSides brick = brick_sides(plane, cell, surface);
         expect_right(plane, cell, brick.corners, true);
         // A half space is white in a cell without a corner inside, and black in one without a corner outside.
         EXPECT_EQ(brick.white, without(Layers::cells(), cells_with_corner(brick.corners.in)));
@@ -147,7 +150,8 @@ TEST(PointSides, OfQuadricsAreNeverWrongAndSeldomMissing) {
         const QuadricSides sides = sides_of(quadric, cell);
         expect_right(cone, cell, sides.points, false);
         unknown += std::popcount(PointColors::all & ~(sides.points.inside | sides.points.outside));
-        const BrickSides brick = brick_sides(quadric, cell);
+        BrickSurface surface;
+        const BrickSides brick = brick_sides(quadric, cell, surface);
         expect_right(cone, cell, brick.corners, false);
         unknown += without(Layers::corners(), brick.corners.in | brick.corners.out).any();
         // No point of a cell that is missed lies inside.
@@ -231,6 +235,73 @@ TEST(PointColors, OctantsWithACornerAreTheNeighboursOfIt) {
         }
 }
 
+/// Against certificates in rationals and integers: what is missed does not meet, what is entered is not apart.
+TEST(BodyInCells, IsNeverWrongAndSeldomSilent) {
+    tests::RandomSolids random(75);
+    int asked = 0, missed = 0, entered = 0;
+    for (int round = 0; round < 400; ++round) {
+        const Cell brick = random_cell(random, 3, 18);
+        std::vector<LatticePlane> planes;
+        std::vector<SecondOrderCone> cones;
+        std::vector<BrickSurface> surfaces;
+        Layers open = Layers::cells();
+        for (int i = 1 + random.below(10); i > 0; --i) {
+            BrickSurface surface;
+            BrickSides sides;
+            if (random.below(3)) {
+                planes.push_back(random_plane(random, brick));
+                sides = brick_sides(planes.back(), brick, surface);
+            } else {
+                cones.push_back(random_cone(random, brick));
+                sides = brick_sides(Quadric(cones.back()), brick, surface);
+                if (!surface.plain) {
+                    cones.pop_back();
+                    continue;
+                }
+            }
+            surfaces.push_back(surface);
+            open = without(open, sides.white);
+        }
+        if (surfaces.empty()) continue;
+        std::vector<const SecondOrderCone*> cone_pointers;
+        for (const SecondOrderCone& cone : cones) cone_pointers.push_back(&cone);
+        const BodyInCells body = body_in_cells(surfaces, open);
+        EXPECT_FALSE((body.missed & body.entered).any());
+        EXPECT_FALSE(without(body.missed | body.entered, open).any());
+        const std::int32_t side = brick.side() / 4;
+        while (const std::optional<BrickCell> next = take_first(open)) {
+            const auto at = [&](std::int32_t low, std::uint32_t steps) {
+                return low + side * static_cast<std::int32_t>(steps);
+            };
+            const Cell cell{{at(brick.low.x, next->x), at(brick.low.y, next->y), at(brick.low.z, next->z)},
+                            brick.level + 2};
+            const Overlap truth = overlap(cell, planes, cone_pointers);
+            ++asked;
+            if (next->in(body.missed)) {
+                ++missed;
+                EXPECT_NE(truth, Overlap::meets);
+            }
+            if (next->in(body.entered)) {
+                ++entered;
+                EXPECT_NE(truth, Overlap::apart);
+            }
+        }
+    }
+    EXPECT_GT(missed, asked / 50);
+    EXPECT_GT(entered, asked / 10);
+    EXPECT_GT(missed + entered, asked * 3 / 4) << "the rest costs a slower look";
+}
+
+TEST(Layers, MortonOrderIsThatOfOctants) {
+    for (unsigned outer = 0; outer < 8; ++outer)
+        for (unsigned inner = 0; inner < 8; ++inner) {
+            Layers cells;
+            BrickCell::of(outer, inner).add_to(cells);
+            EXPECT_EQ(in_morton_order(cells), std::uint64_t{1} << (8 * outer + inner));
+        }
+    EXPECT_EQ(in_morton_order(Layers::corners()), ~std::uint64_t{0}) << "bits that are no cells do not count";
+}
+
 /// Two levels at once say nothing else than one level after the other: where both decide they agree, and a cell with
 /// points on both sides is decided by neither.
 TEST(Brick, AgreesWithOneLevelAfterTheOther) {
@@ -251,7 +322,7 @@ TEST(Brick, AgreesWithOneLevelAfterTheOther) {
         const Cell cell = random_cell(random, 0, 3);
         Brick brick;
         const BrickSeen seen = brick.evaluate(*program, program->words, cell);
-        const Layers both = cells_with_corner(seen.corners.out) & cells_with_corner(seen.corners.in);
+        const Layers both = without(seen.gray(), seen.unproved());
         for (unsigned outer = 0; outer < 8; ++outer) {
             Pruner pruner;
             const Cell octant = cell.child(static_cast<int>(outer));

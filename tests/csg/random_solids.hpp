@@ -192,7 +192,11 @@ class RandomSolids {
         }
     }
 
-    Expr placed(bool flat = false) { return transform(map(), Expr(primitive(flat))); }
+    Expr placed(bool flat = false) {
+        // One after the other: the order in which arguments are evaluated differs between compilers.
+        const Affine place = map();
+        return transform(place, Expr(primitive(flat)));
+    }
 
     Expr tree(int leaves, bool flat = false) {
         if (leaves <= 1) return placed(flat);

@@ -41,6 +41,43 @@ struct RandomTree {
     std::mt19937 random;
 };
 
+TEST(DfCode, TwoLevelsAtOnceAreThoseOneAfterTheOther) {
+    std::mt19937_64 random(5);
+    DfCode at_once, one_by_one;
+    for (int round = 0; round < 2000; ++round) {
+        GrandchildColors colors;
+        const int kind = static_cast<int>(random() % 6);
+        for (int outer = 0; outer < 8; ++outer) {
+            const auto of_octant = [&](std::uint64_t bits) { return (bits & 0xFF) << (8 * outer); };
+            const std::uint64_t black = random(), white = ~black & random();
+            const bool whole = random() % 2 == 0;
+            if (kind == 0 || (kind > 2 && whole && random() % 2 == 0))
+                colors.white |= of_octant(0xFF);
+            else if (kind == 1 || (kind > 2 && whole))
+                colors.black |= of_octant(0xFF);
+            else if (kind > 2 || !whole)
+                colors.black |= of_octant(black), colors.white |= of_octant(white);
+        }
+        const auto append_octant = [&](int outer) {
+            const std::uint64_t white = colors.white >> (8 * outer) & 0xFF,
+                                black = colors.black >> (8 * outer) & 0xFF;
+            if (white == 0xFF || black == 0xFF) return one_by_one.append(white ? Node::white : Node::black);
+            one_by_one.append(Node::split);
+            for (int inner = 0; inner < 8; ++inner)
+                one_by_one.append(white >> inner & 1   ? Node::white
+                                  : black >> inner & 1 ? Node::black
+                                                       : Node::gray);
+        };
+        Node expected = Node::split;
+        if (~colors.white == 0) expected = Node::white;
+        if (~colors.black == 0) expected = Node::black;
+        one_by_one.append(expected);
+        for (int outer = 0; expected == Node::split && outer < 8; ++outer) append_octant(outer);
+        EXPECT_EQ(at_once.append(colors), expected);
+        ASSERT_EQ(at_once, one_by_one);
+    }
+}
+
 TEST(DfCode, GivesBackWhatWasAppended) {
     const std::vector<Node> nodes = random_nodes(1000, 1);
     const DfCode code = code_of(nodes);
