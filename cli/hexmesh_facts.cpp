@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <octavo/mesh/materials.hpp>
+
 #include "model.hpp"
 
 namespace octavo::cli {
@@ -30,6 +32,14 @@ Json json_of(const hexmesh::SolidReport& solid, const std::string& name, bool ex
                  {"snap_displacement", solid.largest_displacement}};
     if (exact) json["filled_volume"] = solid.filled_volume;
     return json;
+}
+
+std::vector<bool> solids_with_cells(const mesh::HexMesh& mesh, std::size_t solids) {
+    std::vector<bool> has_cells(solids, false);
+    const mesh::Materials materials = mesh::materials_of(mesh);
+    for (const std::vector<mesh::SolidIndex>& material : materials.solids)
+        for (const mesh::SolidIndex solid : material) has_cells[solid] = true;
+    return has_cells;
 }
 
 }  // namespace
@@ -125,13 +135,18 @@ void add_fit(Session& session, const hexmesh::FitReport& report, const mesh::Hex
         number_text(report.largest_distance_before));
 }
 
-void warn_about(Session& session, const hexmesh::Report& report, std::span<const std::string> names) {
+void warn_about(Session& session, const hexmesh::Built& built, std::span<const std::string> names) {
+    const hexmesh::Report& report = built.report;
+    const std::vector<bool> has_cells = solids_with_cells(built.mesh, report.solids.size());
     for (std::size_t i = 0; i < report.solids.size(); ++i) {
         const hexmesh::SolidReport& solid = report.solids[i];
         if (!solid.open_facets.empty())
             session.warn(fmt::format("{}: the surface is open; its holes were closed, near facet {}",
                                      names[i], solid.open_facets.front()));
-        if (solid.inside_cells == 0 && solid.boundary_cells > 0)
+        if (!has_cells[i])
+            session.warn(fmt::format("{}: no cell of the mesh belongs to it; the cells are too large for it",
+                                     names[i]));
+        else if (solid.inside_cells == 0 && solid.boundary_cells > 0)
             session.warn(fmt::format("{}: no cell lies inside; the cells are too large for it", names[i]));
     }
     if (report.overlaps)

@@ -184,7 +184,7 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     });
     if (!built) return in_its_file(std::move(built).error(), options.inputs);
     const std::vector<std::string> names = names_of(options.inputs);
-    warn_about(session, built->report, names);
+    warn_about(session, *built, names);
     session.result = json_of(*built, names);
     session.text = text_of(*built, names);
     if (options.fit) {

@@ -274,7 +274,7 @@ Result<mesh::HexMesh> assemble(const exact::Lattice& lattice, ClassifiedCells ce
         kept.resize(cells.keys.size());
         for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = cells.set_of_cell[i] != 0;
     }
-    Result<Numbering> numbering = number_nodes(cells.keys, kept);
+    Result<Numbering> numbering = number_nodes(cells.keys, std::move(kept));
     if (!numbering) return numbering.error();
 
     mesh::HexMesh mesh;
@@ -286,10 +286,10 @@ Result<mesh::HexMesh> assemble(const exact::Lattice& lattice, ClassifiedCells ce
     mesh.constraints_are_direct = options.balance != octree::Contact::face;
     mesh.sets = std::move(cells.sets);
     mesh.fractions = std::move(cells.fractions);  // outside cells have none
-    if (!kept.empty()) {
+    if (options.keep != Keep::all) {
         std::size_t next = 0;
-        for (std::size_t i = 0; i < kept.size(); ++i) {
-            if (!kept[i]) continue;
+        for (std::size_t i = 0; i < cells.keys.size(); ++i) {
+            if (cells.set_of_cell[i] == 0) continue;
             cells.keys[next] = cells.keys[i];
             cells.set_of_cell[next++] = cells.set_of_cell[i];
         }

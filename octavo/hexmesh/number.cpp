@@ -317,11 +317,12 @@ class Numberer {
 
 }  // namespace
 
-Result<Numbering> number_nodes(std::span<const CellKey> leaves, std::span<const std::uint8_t> kept) {
+Result<Numbering> number_nodes(std::span<const CellKey> leaves, std::vector<std::uint8_t> kept) {
     OCTAVO_CHECK(kept.empty() || kept.size() == leaves.size(), "one entry of kept for each leaf");
     if (leaves.size() > CellTree::most_leaves)
         return Error{ErrorCode::limit, "the octree has more than 2^31 - 2 leaves", {}};
     Numberer numberer(leaves, kept);
+    kept = {};  // it has its own bits
     if (Status status = numberer.run(); !status) return status.error();
     return numberer.take();
 }

@@ -87,6 +87,18 @@ TEST_F(Hexmesh, FitsAndReportsQuality) {
     EXPECT_NE(octavo("hexmesh gear.ply --level 4 --fit").out.find("scaled Jacobian"), std::string::npos);
 }
 
+TEST_F(Hexmesh, SaysWhenASolidFillsNoCell) {
+    write("sheet.csg",
+          "multmatrix([[1, 0, 0, 0.1], [0, 1, 0, 0.1], [0, 0, 1, 0.1], [0, 0, 0, 1]]) { cube(size = [10, 10, "
+          "0.001]); }");
+    for (const char* options : {"--fit", "--conforming", "--keep half"}) {
+        const Ran ran = octavo(std::string("hexmesh sheet.csg --level 4 ") + options);
+        EXPECT_EQ(ran.exit_code, 0) << ran.err;
+        EXPECT_NE(ran.err.find("no cell of the mesh belongs to it"), std::string::npos) << options << ran.err;
+    }
+    EXPECT_EQ(octavo("hexmesh sheet.csg --level 4").err.find("no cell of the mesh"), std::string::npos);
+}
+
 TEST_F(Hexmesh, GoesFromOpenscadToAPictureOfStresses) {
     // The worked example of docs/methods/hexmesh.md, coarser.
     const std::string examples = std::string(source_folder) + "/docs/examples/";
