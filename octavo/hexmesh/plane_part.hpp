@@ -15,7 +15,7 @@
 // nothing cancels however small a and b are. The closed formulas in use (R. Scardovelli, S. Zaleski, Analytical
 // relations connecting linear interfaces and volume fractions in rectangular grids, 2000) divide by a · b.
 // Offsets are exact integers rounded once; the result is off by a few units of 2^−53.
-// Cost: about 25 ns, a fifth of clipping the facet and adding up what is above it.
+// Cost: a dozen multiplications and five divisions, no loop.
 
 namespace octavo::hexmesh {
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <octavo/classic/crossing.hpp>
+#include <octavo/exact/int128.hpp>
 #include <octavo/hexmesh/cell_volume.hpp>
 
 namespace octavo::hexmesh {
@@ -135,8 +136,8 @@ int winding_at(const std::vector<classic::Facet>& facets, Point p) {
     return winding;
 }
 
-std::int64_t volume6(const std::array<Point, 4>& t) {
-    const auto d = [&](std::size_t i, int axis) { return std::int64_t{t[i][axis]} - t[0][axis]; };
+exact::int128 volume6(const std::array<Point, 4>& t) {
+    const auto d = [&](std::size_t i, int axis) { return exact::wide(t[i][axis]) - t[0][axis]; };
     return d(1, 0) * (d(2, 1) * d(3, 2) - d(2, 2) * d(3, 1)) -
            d(1, 1) * (d(2, 0) * d(3, 2) - d(2, 2) * d(3, 0)) +
            d(1, 2) * (d(2, 0) * d(3, 1) - d(2, 1) * d(3, 0));
