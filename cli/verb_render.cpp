@@ -124,7 +124,8 @@ Result<ExitCode> render_model(Session& session, const RenderOptions& options) {
     const Result<render::Camera> camera =
         render::Camera::look_at(in_view, options.view, size.width, size.height);
     if (!camera) return in_file(camera.error(), wanted.input);
-    if (subject->wants_contours)
+    // Contours lie hardly before what they border, and a depth buffer's lines shine through that far: only when asked.
+    if (subject->wants_contours && (*method == "order" || wanted.edges == "contours"))
         for (const render::Line& line : render::contours_of(subject->surface, *camera))
             subject->scene.lines.push_back(line);
 

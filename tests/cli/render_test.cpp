@@ -91,6 +91,16 @@ TEST_F(Render, WritesTheSameBytesForAnyNumberOfThreads) {
     }
 }
 
+TEST_F(Render, DrawsContoursByDepthOnlyWhenAsked) {
+    const auto lines = [&](const std::string& options) {
+        return octavo("render part.ply --size 80x60 --json " + options).json()["result"]["lines"].get<int>();
+    };
+    const int sharp = lines("--sharp 50 -o a.png");
+    EXPECT_GT(lines("--sharp 50 -o a.svg"), sharp);
+    EXPECT_GT(lines("--edges contours -o a.png"), 0);
+    EXPECT_EQ(lines("--edges none -o a.svg"), 0);
+}
+
 TEST_F(Render, WritesToStandardOutput) {
     EXPECT_EQ(octavo("render part.ply -o - --to svg").out.substr(0, 4), "<svg");
     EXPECT_EQ(octavo("render part.ply -o - --to bmp").exit_code, 2);
