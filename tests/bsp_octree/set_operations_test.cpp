@@ -30,7 +30,10 @@ struct Volumes {
 Volumes volumes_of(const Convex& first, const Convex& second) {
     std::vector<tests::HalfSpace> sides = first.sides;
     sides.insert(sides.end(), second.sides.begin(), second.sides.end());
-    return {tests::volume_of(first.sides), tests::volume_of(second.sides), tests::volume_of(sides)};
+    const auto volume = [](const std::vector<tests::HalfSpace>& of) {
+        return static_cast<double>(tests::exact_volume(of));
+    };
+    return {volume(first.sides), volume(second.sides), volume(sides)};
 }
 
 class RandomConvexBodies : public testing::TestWithParam<std::tuple<int, std::uint32_t>> {};
