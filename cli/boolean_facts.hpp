@@ -14,10 +14,9 @@
 namespace octavo::cli {
 
 struct BooleanOutput {
-    std::string output, format, simplify = "coplanar", open = "reject", regularized = "yes", tolerance;
+    std::string output, format, simplify = "coplanar", open = "reject";
 
-    /// `standard` is the tolerance where none is given.
-    boolean::Options evaluation(boolean::Tolerance standard = {2, boolean::Tolerance::Of::lattice}) const;
+    boolean::Options evaluation() const;
 };
 
 void add_boolean_options(Verb* verb, BooleanOutput& options);

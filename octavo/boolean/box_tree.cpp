@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 
 #include <octavo/base/parallel.hpp>
@@ -98,8 +97,7 @@ void set_empty(BoxNode& node) {
 
 }  // namespace
 
-BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin,
-                 const Context& context)
+BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, const Context& context)
     : facets_(std::move(facets)) {
     if (facets_.empty()) return;
     UninitialisedVector<Keyed> keyed(facets_.size());
@@ -115,11 +113,11 @@ BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32
     sort_runs(soup, keyed);
     for (std::size_t i = 0; i < keyed.size(); ++i) facets_[i] = keyed[i].facet;
     keyed = {};
-    fill_blocks(soup, margin, context);
+    fill_blocks(soup, context);
     build_levels(context);
 }
 
-void BoxTree::fill_blocks(const Soup& soup, std::int32_t margin, const Context& context) {
+void BoxTree::fill_blocks(const Soup& soup, const Context& context) {
     const std::size_t count = (facets_.size() + width - 1) / width;
     blocks_.resize(count);
     levels_.emplace_back(count);
@@ -143,8 +141,8 @@ void BoxTree::fill_blocks(const Soup& soup, std::int32_t margin, const Context& 
                 for (int lane = 0; lane < width; ++lane) {
                     const std::int32_t a = block.point[0][axis][lane], b = block.point[1][axis][lane],
                                        c = block.point[2][axis][lane];
-                    node.low[axis][lane] = std::min(a, std::min(b, c)) - margin;
-                    node.high[axis][lane] = std::max(a, std::max(b, c)) + margin;
+                    node.low[axis][lane] = std::min(a, std::min(b, c));
+                    node.high[axis][lane] = std::max(a, std::max(b, c));
                 }
         }
     });
@@ -172,21 +170,6 @@ void BoxTree::build_levels(const Context& context) {
         });
         levels_.push_back(std::move(level));
     }
-}
-
-bool BoxTree::meets(exact::Point low, exact::Point high) const {
-    if (empty()) return false;
-    BoxNode probe;
-    for (int axis = 0; axis < 3; ++axis) probe.low[axis][0] = low[axis], probe.high[axis][0] = high[axis];
-    return meets(probe, top(), 0);
-}
-
-bool BoxTree::meets(const BoxNode& probe, std::uint32_t level, std::uint32_t number) const {
-    for (unsigned hits = meeting(node(level, number), probe, 0); hits; hits &= hits - 1) {
-        const std::uint32_t child = number * width + static_cast<std::uint32_t>(std::countr_zero(hits));
-        if (level == 0 || meets(probe, level - 1, child)) return true;
-    }
-    return false;
 }
 
 unsigned meeting(const BoxNode& node, const BoxNode& other, int lane) {

@@ -33,11 +33,8 @@ class BoxTree {
     static constexpr int width = BoxNode::width;
 
     BoxTree() = default;
-    /// Of the facets listed; boxes are larger by `margin` on every side.
-    BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin, const Context& context);
-
-    /// Whether any facet's box meets the closed box from `low` to `high`.
-    bool meets(exact::Point low, exact::Point high) const;
+    /// Of the facets listed.
+    BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, const Context& context);
 
     /// Node n of level 0 holds the facets at positions 8 n to 8 n + 7; box k of node n of a higher level holds
     /// node 8 n + k of the level below. The highest level has one node.
@@ -49,8 +46,7 @@ class BoxTree {
     const FacetBlock& block(std::uint32_t number) const { return blocks_[number]; }
 
   private:
-    bool meets(const BoxNode& probe, std::uint32_t level, std::uint32_t number) const;
-    void fill_blocks(const Soup& soup, std::int32_t margin, const Context& context);
+    void fill_blocks(const Soup& soup, const Context& context);
     void build_levels(const Context& context);
 
     std::vector<std::uint32_t> facets_;

@@ -14,8 +14,7 @@ namespace octavo::boolean {
 
 class FacetPrism {
   public:
-    /// Boxes count as met when they are within `reach`.
-    FacetPrism(const FacetBlock& block, int lane, double reach = 0);
+    FacetPrism(const FacetBlock& block, int lane);
 
     /// Those of the boxes `candidates` of `node` (bit k is lane k) that the facet may meet.
     unsigned meeting(const BoxNode& node, unsigned candidates) const;

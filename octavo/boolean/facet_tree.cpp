@@ -26,7 +26,7 @@ std::int32_t longest_side(const Soup& soup, std::uint32_t facet) {
 
 }  // namespace
 
-FacetTree::FacetTree(const Soup& soup, const Context& context, double reach) : reach_(reach) {
+FacetTree::FacetTree(const Soup& soup, const Context& context) {
     const double limit =
         long_ratio * exact::universe_side / std::sqrt(static_cast<double>(soup.facets.size()) + 1);
     std::vector<char> is_long(soup.facets.size());
@@ -38,9 +38,8 @@ FacetTree::FacetTree(const Soup& soup, const Context& context, double reach) : r
     ordinary.reserve(is_long.size());
     for (std::uint32_t facet = 0; facet < is_long.size(); ++facet)
         (is_long[facet] ? long_ones : ordinary).push_back(facet);
-    const auto margin = static_cast<std::int32_t>(std::ceil(reach / 2));  // of either box
-    ordinary_ = BoxTree(soup, std::move(ordinary), margin, context);
-    long_ = BoxTree(soup, std::move(long_ones), margin, context);
+    ordinary_ = BoxTree(soup, std::move(ordinary), context);
+    long_ = BoxTree(soup, std::move(long_ones), context);
 }
 
 std::vector<FacetTree::Task> FacetTree::pair_tasks(std::size_t count) const {

@@ -25,8 +25,7 @@ namespace octavo::boolean {
 class FacetTree {
   public:
     FacetTree() = default;
-    /// With a `reach`, pairs that come nearer to each other than that, in lattice units, are found as well.
-    explicit FacetTree(const Soup& soup, const Context& context = {}, double reach = 0);
+    explicit FacetTree(const Soup& soup, const Context& context = {});
 
     /// A part of all pairs: either nodes `first` <= `second` of one level of the ordinary facets, or the long
     /// facets at the positions [first, second).
@@ -48,7 +47,7 @@ class FacetTree {
             return;
         }
         for (std::uint32_t position = task.first; position < task.second; ++position) {
-            const LongFacet facet(long_, position, reach_);
+            const LongFacet facet(long_, position);
             meet_long(facet, ordinary_, 0, visit);
             meet_long(facet, long_, position + 1, visit);
         }
@@ -72,13 +71,13 @@ class FacetTree {
     };
 
     struct LongFacet {
-        LongFacet(const BoxTree& tree, std::uint32_t position, double reach)
+        LongFacet(const BoxTree& tree, std::uint32_t position)
             : facet(tree.facet(position)),
               lane(static_cast<int>(position % width)),
               block(tree.block(position / width)),
               box(tree.node(0, position / width)),
-              planes(block, reach),
-              prism(block, lane, reach) {}
+              planes(block),
+              prism(block, lane) {}
         std::uint32_t facet;
         int lane;
         const FacetBlock& block;
@@ -103,9 +102,8 @@ class FacetTree {
                           current, visit);
                 continue;
             }
-            if (current.block != first) current = {first, FacetPlanes(ordinary_.block(first), reach_)};
-            hits =
-                may_meet(ordinary_.block(first), current.planes, lane, ordinary_.block(second), hits, reach_);
+            if (current.block != first) current = {first, FacetPlanes(ordinary_.block(first))};
+            hits = may_meet(ordinary_.block(first), current.planes, lane, ordinary_.block(second), hits);
             for (; hits; hits &= hits - 1)
                 visit(ordinary_.facet(a),
                       ordinary_.facet(second * width + static_cast<std::uint32_t>(std::countr_zero(hits))));
@@ -126,8 +124,7 @@ class FacetTree {
             hits = facet.prism.meeting(node, hits);
         } else {
             if (begin > number * width) hits &= ~0u << (begin - number * width);
-            if (hits)
-                hits = may_meet(facet.block, facet.planes, facet.lane, tree.block(number), hits, reach_);
+            if (hits) hits = may_meet(facet.block, facet.planes, facet.lane, tree.block(number), hits);
         }
         for (; hits; hits &= hits - 1) {
             const std::uint32_t child = number * width + static_cast<std::uint32_t>(std::countr_zero(hits));
@@ -156,7 +153,6 @@ class FacetTree {
         }
     }
 
-    double reach_ = 0;
     BoxTree ordinary_, long_;
 };
 

@@ -33,11 +33,8 @@ struct Surface {
     }
 };
 
-/// The triangles that bound the result, in the order of the complex: whole facets first.
+/// The triangles with a role, in the order of the complex: whole facets first.
 Surface select(const Complex& complex, const Patches& patches, const Classification& classification);
-
-/// The triangles that dangle, as their facets turn.
-Surface select_dangling(const Complex& complex, const Patches& patches, const Classification& classification);
 
 /// Per point: whether it is where triangles were cut, or met other surfaces. All other points keep their fan of
 /// input facets.

@@ -79,10 +79,9 @@ Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context) {
     const Surface surface = fill_borders(borders, octree.store().planes, points);
     context.report("mesh", 0.9);
     boolean::Assembled assembled =
-        boolean::assemble(surface, soup, points, boolean::RoundedPoints(soup, points),
-                          std::vector<char>(points.size(), 1), context);
+        boolean::assemble(surface, soup, points, std::vector<char>(points.size(), 1), context);
     result.report.largest_rounding = assembled.largest_rounding;
-    result.report.inverted_facets = assembled.faults.inverted.size();
+    result.report.inverted_facets = assembled.inverted_facets;
     result.report.duplicated_vertices = assembled.duplicated_vertices;
     result.mesh = std::move(assembled.mesh);
     result.mesh.sources.clear();

@@ -30,10 +30,7 @@ struct Volumes {
 Volumes volumes_of(const Convex& first, const Convex& second) {
     std::vector<tests::HalfSpace> sides = first.sides;
     sides.insert(sides.end(), second.sides.begin(), second.sides.end());
-    const auto volume = [](const std::vector<tests::HalfSpace>& of) {
-        return static_cast<double>(tests::exact_volume(of));
-    };
-    return {volume(first.sides), volume(second.sides), volume(sides)};
+    return {tests::volume_of(first.sides), tests::volume_of(second.sides), tests::volume_of(sides)};
 }
 
 class RandomConvexBodies : public testing::TestWithParam<std::tuple<int, std::uint32_t>> {};
