@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,24 @@ OptionCheck number_between(double least, double most) {
         if (number && *number >= least && *number <= most) return "";
         return fmt::format("must be a number from {} to {}, not {}", least, most, text);
     };
+}
+
+std::optional<std::uint64_t> parse_count(const std::string& text) {
+    const std::size_t letter = text.empty() ? 0 : std::string_view("KMG").find(text.back());
+    double unit = 1;
+    std::string digits = text;
+    if (!text.empty() && letter != std::string_view::npos) {
+        unit = std::pow(1000.0, static_cast<double>(letter) + 1);
+        digits.pop_back();
+    }
+    const std::optional<double> number = parsed<double>(digits);
+    constexpr double most = 1e18;
+    if (!number || !(*number * unit >= 1 && *number * unit <= most)) return std::nullopt;
+    return static_cast<std::uint64_t>(*number * unit);
+}
+
+std::string check_count(const std::string& text) {
+    return parse_count(text) ? "" : fmt::format("must be a count such as 500K, 20M or 1.5G, not {}", text);
 }
 
 Option* take_one_of(Option* option, const std::vector<std::string>& words) {

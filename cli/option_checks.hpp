@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ OptionCheck whole_number(std::int64_t least, std::int64_t most);
 
 /// A number from `least` to `most`.
 OptionCheck number_between(double least, double most);
+
+/// A count such as 300, 2K, 50M or 1.5G (thousands, millions, milliards), at least 1; nothing when it is not one.
+std::optional<std::uint64_t> parse_count(const std::string& text);
+std::string check_count(const std::string& text);
 
 /// The option takes one of these words; help and shell completion show them.
 Option* take_one_of(Option* option, const std::vector<std::string>& words);

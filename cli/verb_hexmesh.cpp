@@ -28,7 +28,7 @@ namespace {
 struct HexmeshOptions {
     std::vector<std::string> inputs, sizes, boxes;
     std::string output, to, balance = "edge", open = "reject", overlaps = "reject", curvature, keep, picture,
-                            values;
+                            values, max_cells = "100M";
     int level = 7, layers = -1;
     double precision = 0, largest = 0, proximity = 0;
     bool conforming = false, fit = false, no_fractions = false, skip_unsupported = false;
@@ -97,6 +97,7 @@ Result<hexmesh::Options> meshing_options(const HexmeshOptions& options) {
             ErrorCode::bad_input,
             "--fit and --keep " + keep + " need the parts that are filled, and --no-fractions forbids them",
             {}};
+    meshing.max_cells = *parse_count(options.max_cells);
     meshing.fractions = options.no_fractions ? hexmesh::Fractions::skip : hexmesh::Fractions::compute;
     meshing.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
     meshing.overlaps =
@@ -242,6 +243,11 @@ void add_size_options(Verb* verb, HexmeshOptions& options) {
     verb->add_option("--box", options.boxes, "Cells in the box are no larger than this")
         ->check(checked_by(parse_box, "wants x0,y0,z0,x1,y1,z1:LENGTH"))
         ->type_name("BOX:LENGTH");
+    verb->add_option("--max-cells", options.max_cells,
+                     "Give up beyond so many cells of the octree: a count such as 20M, some 65 bytes each")
+        ->check(check_count)
+        ->type_name("N")
+        ->capture_default_str();
     verb->add_option("--curvature", options.curvature,
                      "Down to this length, split cells in which the surface turns by more than DEGREES (30)")
         ->check(checked_by(parse_curvature, "wants LENGTH or LENGTH:DEGREES"))

@@ -21,7 +21,7 @@ namespace octavo::cli {
 namespace {
 
 struct OctreeOptions {
-    std::string input, output, format, to, open = "reject", method = "top-down";
+    std::string input, output, format, to, open = "reject", method = "top-down", max_nodes = "2G";
     int depth = 8;
     double precision = 0;
     bool faceted = false, skip_unsupported = false;
@@ -60,6 +60,7 @@ Result<Grown> grow_from_mesh(Session& session, const Context& context, const Oct
     if (!snapped) return in_file(std::move(snapped).error(), options.input);
     classic::BuildOptions building;
     building.depth = options.depth;
+    building.max_nodes = *parse_count(options.max_nodes);
     building.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
     if (options.precision > 0) {
         Result<int> depth = depth_for(options.precision, snapped->mesh.lattice);
@@ -82,6 +83,7 @@ Result<Grown> grow_from_csg(Session& session, const Context& context, const Octr
     classic::CsgBuildOptions building;
     building.depth = options.depth;
     building.precision = options.precision;
+    building.max_nodes = *parse_count(options.max_nodes);
     building.method =
         options.method == "classic" ? classic::CsgMethod::classic : classic::CsgMethod::top_down;
     Result<classic::CsgOctree> built =
@@ -139,6 +141,11 @@ void add_octree(Program& program) {
         ->check(check_positive)
         ->type_name("LENGTH")
         ->excludes(depth);
+    verb->add_option("--max-nodes", options->max_nodes,
+                     "Give up beyond so many nodes: a count such as 500K, 20M or 2G, a quarter byte each")
+        ->check(check_count)
+        ->type_name("N")
+        ->capture_default_str();
     take_one_of(verb->add_option("--open", options->open,
                                  "An open surface: reject it, or close it and go by winding"),
                 {"reject", "winding"});

@@ -93,12 +93,13 @@ void add(CsgBuildStats& stats, const CsgDescent::Counters& counters) {
     stats.resolved += counters.resolved;
 }
 
-Result<DfCode> build_top_down(const csg::Program& program, int depth, CsgBuildStats& stats,
-                              const Context& context) {
+Result<DfCode> build_top_down(const csg::Program& program, const CsgBuildOptions& options,
+                              CsgBuildStats& stats, const Context& context) {
     CsgDescent::Counters counters;
-    const CsgDescent problem(program, program.words, {depth, CsgDescentOptions::LastLevel::resolve},
+    const CsgDescent problem(program, program.words, {options.depth, CsgDescentOptions::LastLevel::resolve},
                              counters);
-    Result<CsgDescent::Output> built = octree::descend(problem, context, {.phase = "top-down"});
+    Result<CsgDescent::Output> built =
+        octree::descend(problem, context, {.phase = "top-down", .max_nodes = options.max_nodes});
     if (!built) return built.error();
     add(stats, counters);
     stats.peak_nodes = built->peak();
@@ -108,18 +109,18 @@ Result<DfCode> build_top_down(const csg::Program& program, int depth, CsgBuildSt
 }
 
 /// An octree of each leaf of `primitives`; gray cells are looked at again by `program`, which may have fewer.
-Result<DfCode> build_classic(const csg::Program& primitives, const csg::Program& program, int depth,
-                             CsgBuildStats& stats, const Context& context) {
-    Result<PrimitivewiseOctree> combined = build_by_primitive(primitives, depth, context);
+Result<DfCode> build_classic(const csg::Program& primitives, const csg::Program& program,
+                             const CsgBuildOptions& options, CsgBuildStats& stats, const Context& context) {
+    Result<PrimitivewiseOctree> combined = build_by_primitive(primitives, options, context);
     if (!combined) return combined.error();
     const std::uint64_t count = stats.primitives;
     stats = combined->stats;
     stats.primitives = count;
     CsgDescent::Counters counters;
-    const CsgDescent descent(program, program.words, {depth, CsgDescentOptions::LastLevel::resolve},
+    const CsgDescent descent(program, program.words, {options.depth, CsgDescentOptions::LastLevel::resolve},
                              counters);
-    Result<CsgDescent::Output> resolved =
-        octree::descend(GrayCells(descent, combined->code), context, {.phase = "gray cells"});
+    Result<CsgDescent::Output> resolved = octree::descend(
+        GrayCells(descent, combined->code), context, {.phase = "gray cells", .max_nodes = options.max_nodes});
     if (!resolved) return resolved.error();
     stats.resolved = counters.resolved;
     // The second look reads one octree, writes another and prunes programs on the way.
@@ -140,8 +141,8 @@ std::optional<int> depth_for(double precision, const exact::Lattice& lattice) {
 
 /// `primitives` are those of the classic method.
 Result<CsgOctree> build_either(const csg::Program& program, const csg::Program& primitives,
-                               const CsgBuildOptions& options, const Context& context) {
-    int depth = options.depth;
+                               CsgBuildOptions options, const Context& context) {
+    int& depth = options.depth;
     if (!(options.precision >= 0) || !std::isfinite(options.precision))
         return Error{ErrorCode::bad_input, "the precision is not a positive number", {}};
     if (options.precision > 0) {
@@ -163,8 +164,8 @@ Result<CsgOctree> build_either(const csg::Program& program, const csg::Program& 
         return CsgOctree{octree::Octree(program.lattice, depth, std::move(code)), stats};
     }
     Result<DfCode> code = options.method == CsgMethod::top_down
-                              ? build_top_down(program, depth, stats, context)
-                              : build_classic(primitives, program, depth, stats, context);
+                              ? build_top_down(program, options, stats, context)
+                              : build_classic(primitives, program, options, stats, context);
     if (!code) return code.error();
     return CsgOctree{octree::Octree(program.lattice, depth, std::move(*code)), stats};
 }

@@ -7,6 +7,7 @@
 #include <octavo/base/context.hpp>
 #include <octavo/csg/expression.hpp>
 #include <octavo/csg/program.hpp>
+#include <octavo/octree/descent_options.hpp>
 #include <octavo/octree/octree.hpp>
 
 // From a CSG expression to its classic octree, by either of two methods that give the same tree.
@@ -32,7 +33,9 @@ struct CsgBuildOptions {
     double precision = 0;
     CsgMethod method = CsgMethod::top_down;
     /// See csg::CompileOptions.
-    std::optional<Box3> universe;
+    std::optional<Box3> universe = {};
+    /// An octree with more nodes is refused; of CsgMethod::classic all octrees that exist at a time.
+    std::uint64_t max_nodes = octree::DescentOptions::default_max_nodes;
 };
 
 struct CsgBuildStats {
@@ -51,7 +54,7 @@ struct CsgOctree {
 };
 
 /// The octree of an expression. The same for both methods and any number of threads. Errors: bad_input (a number
-/// that is not finite, a depth out of range), limit (unbounded, too large), cancelled.
+/// that is not finite, a depth out of range), limit (unbounded, too large, more nodes than `max_nodes`), cancelled.
 Result<CsgOctree> build(const csg::Expr& expression, const CsgBuildOptions& options = {},
                         const Context& context = {});
 

@@ -61,8 +61,8 @@ class Gathering {
 
 class Builder {
   public:
-    Builder(const csg::Program& program, int depth, const Context& context)
-        : program_(program), depth_(depth), context_(context) {}
+    Builder(const csg::Program& program, const CsgBuildOptions& options, const Context& context)
+        : program_(program), options_(options), context_(context) {}
 
     Result<PrimitivewiseOctree> run() {
         const std::vector<std::uint32_t>& words = program_.words;
@@ -82,6 +82,8 @@ class Builder {
             }
             Result<DfCode> leaf = build_leaf({words.data() + at, 1});
             if (!leaf) return leaf.error();
+            if (nodes_ > options_.max_nodes)
+                return octree::too_many_nodes(options_.max_nodes, options_.depth);
             ++at;
             DfCode code = std::move(*leaf);
             while (!open.empty()) {
@@ -103,9 +105,9 @@ class Builder {
         if (context_.cancelled()) return Context::cancelled_error();
         Context quiet = context_;
         quiet.on_progress = nullptr;
-        const CsgDescent problem(program_, leaf, {depth_, CsgDescentOptions::LastLevel::keep_gray},
+        const CsgDescent problem(program_, leaf, {options_.depth, CsgDescentOptions::LastLevel::keep_gray},
                                  counters_);
-        Result<CsgDescent::Output> built = octree::descend(problem, quiet);
+        Result<CsgDescent::Output> built = octree::descend(problem, quiet, {.max_nodes = options_.max_nodes});
         if (!built) return built.error();
         DfCode code = built->take_code();
         grow(code);
@@ -124,7 +126,7 @@ class Builder {
     }
 
     const csg::Program& program_;
-    int depth_;
+    const CsgBuildOptions& options_;
     const Context& context_;
     CsgDescent::Counters counters_;
     std::uint64_t nodes_ = 0, bytes_ = 0;
@@ -133,9 +135,9 @@ class Builder {
 
 }  // namespace
 
-Result<PrimitivewiseOctree> build_by_primitive(const csg::Program& program, int depth,
+Result<PrimitivewiseOctree> build_by_primitive(const csg::Program& program, const CsgBuildOptions& options,
                                                const Context& context) {
-    return Builder(program, depth, context).run();
+    return Builder(program, options, context).run();
 }
 
 }  // namespace octavo::classic

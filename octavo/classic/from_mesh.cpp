@@ -104,7 +104,8 @@ Result<Built> build(const mesh::LatticeMesh& mesh, const BuildOptions& options, 
         facets = facets_of(closed);
     }
 
-    Result<CountedOutput> output = octree::descend(MeshProblem(*facets, options.depth), context);
+    Result<CountedOutput> output =
+        octree::descend(MeshProblem(*facets, options.depth), context, {.max_nodes = options.max_nodes});
     if (!output) return output.error();
     built.octree = octree::Octree(mesh.lattice, options.depth, output->take_code());
     built.report.primitive_tests = output->tests();

@@ -6,6 +6,7 @@
 #include <octavo/classic/built.hpp>
 #include <octavo/classic/closed_surface.hpp>
 #include <octavo/mesh/mesh.hpp>
+#include <octavo/octree/descent_options.hpp>
 
 // Triangles → classic octree.
 //
@@ -31,10 +32,12 @@ namespace octavo::classic {
 struct BuildOptions {
     int depth = 8;  ///< the deepest level, 0 to 21: gray leaves have side 2^(26 − depth) lattice units
     OpenPolicy open = OpenPolicy::reject;
+    std::uint64_t max_nodes = octree::DescentOptions::default_max_nodes;
 };
 
 /// The classic octree of a snapped mesh.
-/// Errors: bad_input (indices, a depth out of range), not_a_solid (open, under OpenPolicy::reject), cancelled.
+/// Errors: bad_input (indices, a depth out of range), not_a_solid (open, under OpenPolicy::reject), limit (more
+/// than `max_nodes`), cancelled.
 Result<Built> build(const mesh::LatticeMesh& mesh, const BuildOptions& options = {},
                     const Context& context = {});
 

@@ -149,12 +149,13 @@ std::vector<CellKey> split_for(std::span<const CellKey> leaves, std::span<const 
     return result;
 }
 
-/// The refinement that Options::layers asks for.
-std::vector<CellKey> with_layers(const ClassifiedCells& cells, std::vector<CellKey> keys, int layers) {
+/// The refinement that Options::layers asks for; it stops at the first layer with too many cells.
+std::vector<CellKey> with_layers(const ClassifiedCells& cells, std::vector<CellKey> keys,
+                                 const Options& options) {
     std::vector<CellKey> front;
     for (std::size_t i = 0; i < cells.keys.size(); ++i)
         if (!cells.sets[cells.set_of_cell[i]].boundary.empty()) front.push_back(cells.keys[i]);
-    for (int layer = 0; layer < layers; ++layer) {
+    for (int layer = 0; layer < options.layers && keys.size() <= options.max_cells; ++layer) {
         front = neighbourhood(front);
         keys = split_for(keys, front);
     }
@@ -169,8 +170,8 @@ Result<ClassifiedCells> balanced_cells(const Prepared& prepared, const Options& 
     Result<ClassifiedCells> refined = refine(prepared.facets, *sizes, options, context);
     if (!refined) return refined;
     std::vector<CellKey> keys = octree::balance(
-        options.layers > 0 ? with_layers(*refined, refined->keys, options.layers) : refined->keys,
-        options.balance);
+        options.layers > 0 ? with_layers(*refined, refined->keys, options) : refined->keys, options.balance);
+    if (keys.size() > options.max_cells) return too_many_cells(options.max_cells);
     if (splits_a_boundary_cell(*refined, keys)) return classify(prepared.facets, keys, options, context);
     return inherit(std::move(*refined), std::move(keys));
 }
@@ -260,8 +261,9 @@ Result<ClassifiedCells> decided_cells(const Prepared& prepared, ClassifiedCells 
         if (options.keep != Keep::manifold || round == most_rounds) return cells;
         const std::vector<CellKey> covered = cut_off_in_the_middle(cells);
         if (covered.empty()) return cells;
-        Result<ClassifiedCells> finer = classify(
-            prepared.facets, octree::balance(split(cells.keys, covered), options.balance), options, context);
+        const std::vector<CellKey> keys = octree::balance(split(cells.keys, covered), options.balance);
+        if (keys.size() > options.max_cells) return too_many_cells(options.max_cells);
+        Result<ClassifiedCells> finer = classify(prepared.facets, keys, options, context);
         if (!finer) return finer;
         cells = std::move(*finer);
     }

@@ -323,22 +323,33 @@ Result<ClassifiedCells> CellOutput::take() && {
     return std::move(cells_);
 }
 
-Result<ClassifiedCells> run(const SolidsProblem& problem, const char* phase, const Context& context) {
-    Result<CellOutput> output = octree::descend(problem, context, {.phase = phase});
-    if (!output) return output.error();
-    return std::move(*output).take();
+Result<ClassifiedCells> run(const SolidsProblem& problem, const char* phase, std::uint64_t max_cells,
+                            const Context& context) {
+    // Every cell that is split adds eight nodes, of which seven more are leaves.
+    const std::uint64_t max_nodes = max_cells + max_cells / 7;
+    Result<CellOutput> output = octree::descend(problem, context, {.phase = phase, .max_nodes = max_nodes});
+    if (output) return std::move(*output).take();
+    if (output.error().code == ErrorCode::limit) return too_many_cells(max_cells);
+    return output.error();
 }
 
 }  // namespace
 
+Error too_many_cells(std::uint64_t max_cells) {
+    return {ErrorCode::limit,
+            "the octree has more than " + grouped(max_cells) +
+                " cells; ask for larger cells, or raise the limit (max-cells)",
+            {}};
+}
+
 Result<ClassifiedCells> refine(std::span<const SolidFacets> solids, const SizeField& sizes,
                                const Options& options, const Context& context) {
-    return run(SolidsProblem(solids, &sizes, {}, options), "refine", context);
+    return run(SolidsProblem(solids, &sizes, {}, options), "refine", options.max_cells, context);
 }
 
 Result<ClassifiedCells> classify(std::span<const SolidFacets> solids, std::span<const CellKey> keys,
                                  const Options& options, const Context& context) {
-    return run(SolidsProblem(solids, nullptr, keys, options), "classify", context);
+    return run(SolidsProblem(solids, nullptr, keys, options), "classify", options.max_cells, context);
 }
 
 }  // namespace octavo::hexmesh

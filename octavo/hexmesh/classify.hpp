@@ -39,7 +39,11 @@ struct SolidFacets {
     std::vector<classic::Facet> facets;
 };
 
-/// Refines as the size field asks, and classifies. Errors: limit beyond 2^16 sets of solids or 2^31 − 2 cells; cancelled.
+/// The error of an octree that has more cells than Options::max_cells.
+Error too_many_cells(std::uint64_t max_cells);
+
+/// Refines as the size field asks, and classifies. Errors: limit beyond 2^16 sets of solids, `options.max_cells` or
+/// 2^31 − 2 cells; cancelled.
 Result<ClassifiedCells> refine(std::span<const SolidFacets> solids, const SizeField& sizes,
                                const Options& options, const Context& context);
 

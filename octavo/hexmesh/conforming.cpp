@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include <octavo/hexmesh/classify.hpp>
 #include <octavo/hexmesh/conforming.hpp>
 #include <octavo/hexmesh/cubic_grid.hpp>
 #include <octavo/hexmesh/quality.hpp>
@@ -121,11 +122,13 @@ struct LooseHexes {
     std::vector<Vec3> centres;
 };
 
-LooseHexes cut_leaves(const Grid& grid) {
+/// Stops soon after `max_cells` are exceeded.
+LooseHexes cut_leaves(const Grid& grid, std::uint64_t max_cells) {
     std::map<EdgeSet, std::vector<TemplateHex>> templates;
     LooseHexes loose;
     const double side = grid.side_of(0);
     grid.cubic.for_each_leaf([&](const CubicGrid::Leaf& leaf) {
+        if (loose.hexes.size() > max_cells) return;
         auto found = templates.find(leaf.cut);
         if (found == templates.end()) found = templates.emplace(leaf.cut, cut_cell(leaf.cut)).first;
         OCTAVO_CHECK(!found->second.empty(), "every leaf of a closed grid has a template");
@@ -239,7 +242,8 @@ Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options
     grid->cubic.close();
     context.report("conform", 0.3);
     if (context.cancelled()) return Context::cancelled_error();
-    const LooseHexes loose = cut_leaves(*grid);
+    const LooseHexes loose = cut_leaves(*grid, options.max_cells);
+    if (loose.hexes.size() > options.max_cells) return too_many_cells(options.max_cells);
     context.report("conform", 0.6);
     const auto inside = solids_at(solids, loose.centres, options, context);
     if (!inside) return inside.error();

@@ -79,6 +79,8 @@ struct Options {
     Fractions fractions = Fractions::compute;
     classic::OpenPolicy open = classic::OpenPolicy::reject;
     OverlapPolicy overlaps = OverlapPolicy::reject;
+    /// An octree with more cells is refused, whether they belong to the mesh or not: 6.5 GB, at 65 bytes a cell.
+    std::uint64_t max_cells = 100'000'000;
 };
 
 }  // namespace octavo::hexmesh

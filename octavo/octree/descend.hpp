@@ -15,6 +15,7 @@
 
 #include <octavo/base/parallel.hpp>
 #include <octavo/octree/cell.hpp>
+#include <octavo/octree/descent_options.hpp>
 #include <octavo/octree/df_code.hpp>
 
 // The descent: the one recursion of Octavo.
@@ -47,6 +48,7 @@
 //     static constexpr int finished_levels = 2;            // cells this far above the last level are not split …
 //     Node finish(const Cell&, const Description&, Workspace&, Output&) const;   // … but given to the output with
 //                                                          // all below them; returns the common colour, or split
+//                                                          // (the output then says how many `nodes()` it has)
 //
 // and an output one with
 //
@@ -68,6 +70,10 @@
 // and outputs are appended in Morton order. A problem whose answers depend on the description alone therefore
 // gives the same bytes for any number of threads. `restrict_to_children` is called from several threads at
 // once.
+//
+// Memory: a depth of 21 allows 8^21 nodes, so the nodes are counted and a limit stops the descent. Counted are nodes
+// that stay, when the cell above them is done and they were not merged: their number is that of the result, the same for
+// any number of threads, and what is held beside them is eight nodes a level.
 //
 // Small example, the cells of level ≤ 5 of the half space x < 1000 (no list, so nothing to store):
 //
@@ -125,15 +131,6 @@ concept DescentProblem = requires(const P& problem, const Cell& cell, typename P
     output.append(std::move(output));
 };
 
-struct DescentOptions {
-    /// The name under which progress is reported.
-    std::string_view phase = "octree";
-    /// Sub-trees with more weight than this may run at the same time as their siblings. Small enough for
-    /// eight threads to share 100 000 triangles, large enough that a fork (some microseconds) is lost in it.
-    /// It does not influence the result.
-    std::size_t fork_weight = 2000;
-};
-
 /// The usual output: the nodes as a DF code, white and black siblings merged.
 class DfOutput {
   public:
@@ -161,6 +158,7 @@ class DfOutput {
     }
     void append(DfOutput&& next) { code_.append(next.code_); }
 
+    std::size_t nodes() const { return code_.size(); }
     const DfCode& code() const { return code_; }
     DfCode take_code() { return std::move(code_); }
 
@@ -212,17 +210,19 @@ class Descent {
     Result<Output> run() {
         progress_.start();
         Output output = problem_.make_output();
-        std::unique_ptr<Workspace> workspace = borrow();
-        Restricted<Description> root = problem_.root(*workspace);
+        std::unique_ptr<Path> path = borrow();
+        Restricted<Description> root = problem_.root(path->workspace);
         if (root.node == Node::split && depth_ == 0) root.node = Node::gray;
         if (is_leaf(root.node))
-            output.leaf(Cell::root(), root, *workspace);
+            output.leaf(Cell::root(), root, path->workspace);
         else if (context_.threads == 1)
-            visit<false>(Cell::root(), root.description, *workspace, output, 1.0);
+            visit<false>(Cell::root(), root.description, *path, output, 1.0);
         else
             within_threads(context_,
-                           [&] { visit<true>(Cell::root(), root.description, *workspace, output, 1.0); });
-        if (cancelled_) return Context::cancelled_error();
+                           [&] { visit<true>(Cell::root(), root.description, *path, output, 1.0); });
+        count(*path);
+        if (has_too_many_nodes_) return too_many_nodes(options_.max_nodes, depth_);
+        if (stopped_) return Context::cancelled_error();
         progress_.finish();
         return output;
     }
@@ -239,20 +239,41 @@ class Descent {
 
     static constexpr bool finishes = requires { Problem::finished_levels; };
 
+    /// What a thread needs on its way through a sub-tree.
+    struct Path {
+        Workspace workspace;
+        std::uint64_t kept_nodes = 0;  ///< not yet added to those of all paths
+    };
+
+    /// Nodes that stay. They are added up in portions: the sum is shared by all threads.
+    void keep(std::uint64_t nodes, Path& path) {
+        constexpr std::uint64_t portion = 4096;
+        path.kept_nodes += nodes;
+        if (path.kept_nodes >= portion) count(path);
+    }
+    void count(Path& path) {
+        const std::uint64_t before = kept_nodes_.fetch_add(path.kept_nodes, std::memory_order_relaxed);
+        if (before + path.kept_nodes > options_.max_nodes) has_too_many_nodes_ = stopped_ = true;
+        path.kept_nodes = 0;
+    }
+
     /// Visits a cell that is split; returns the colour of all of it when its leaves could be merged, else
     /// split.
     template <bool may_fork>
-    Node visit(const Cell& cell, const Description& description, Workspace& workspace, Output& output,
-               double share) {
-        if (cancelled_.load(std::memory_order_relaxed)) return Node::split;
+    Node visit(const Cell& cell, const Description& description, Path& path, Output& output, double share) {
+        if (stopped_.load(std::memory_order_relaxed)) return Node::split;
         if (context_.cancelled()) {
-            cancelled_ = true;
+            stopped_ = true;
             return Node::split;
         }
+        Workspace& workspace = path.workspace;
         if constexpr (finishes) {
             if (cell.level + Problem::finished_levels == depth_) {
                 if (share != 0) progress_.add(share);
-                return problem_.finish(cell, description, workspace, output);
+                const std::size_t before = output.nodes();
+                const Node common = problem_.finish(cell, description, workspace, output);
+                keep(output.nodes() - before - 1, path);  // the cell itself is kept with its siblings
+                return common;
             }
         }
         Children<Description> children;
@@ -261,37 +282,44 @@ class Descent {
         if (cell.level + 1 == depth_) {
             for (Restricted<Description>& child : children)
                 if (child.node == Node::split) child.node = Node::gray;
-            if constexpr (takes_all_leaves) return leaves(cell, children, workspace, output, share);
+            if constexpr (takes_all_leaves) return leaves(cell, children, path, output, share);
         }
         const bool fork = may_fork && problem_.weight(description) > options_.fork_weight;
-        const Node merged = fork ? visit_octants_apart(cell, children, workspace, output, share)
-                                 : visit_octants<may_fork>(cell, children, workspace, output, share);
-        if (merged == Node::white || merged == Node::black) output.merge(cell, color_of(merged));
-        return merged;
+        const Node merged = fork ? visit_octants_apart(cell, children, path, output, share)
+                                 : visit_octants<may_fork>(cell, children, path, output, share);
+        return merge_or_keep(cell, merged, path, output);
+    }
+
+    /// `common` is the colour that all octants share, or split.
+    Node merge_or_keep(const Cell& cell, Node common, Path& path, Output& output) {
+        if (common == Node::white || common == Node::black) {
+            output.merge(cell, color_of(common));
+            return common;
+        }
+        keep(8, path);
+        return Node::split;
     }
 
     /// Hands over the octants of a cell above the last level in one call, where the output has one for it.
-    Node leaves(const Cell& cell, const Children<Description>& children, const Workspace& workspace,
-                Output& output, double share) {
+    Node leaves(const Cell& cell, const Children<Description>& children, Path& path, Output& output,
+                double share) {
         if (share != 0) progress_.add(share);
-        const Node common = output.leaves(cell, children, workspace);
-        if (common != Node::white && common != Node::black) return Node::split;
-        output.merge(cell, color_of(common));
-        return common;
+        const Node common = output.leaves(cell, children, path.workspace);
+        return merge_or_keep(cell, common, path, output);
     }
 
     template <bool may_fork>
-    Node visit_octants(const Cell& cell, const Children<Description>& children, Workspace& workspace,
-                       Output& output, double share) {
+    Node visit_octants(const Cell& cell, const Children<Description>& children, Path& path, Output& output,
+                       double share) {
         const double child_share = share < least_share ? 0 : share / weight_of_split(children);
         Node common = children[0].node;
         for (int i = 0; i < 8; ++i) {
             const Restricted<Description>& child = children[static_cast<std::size_t>(i)];
             Node node = child.node;
             if (is_leaf(node))
-                output.leaf(cell.child(i), child, workspace);
+                output.leaf(cell.child(i), child, path.workspace);
             else
-                node = visit<may_fork>(cell.child(i), child.description, workspace, output,
+                node = visit<may_fork>(cell.child(i), child.description, path, output,
                                        child_share * weight_of(child));
             if (i == 0) common = node;
             if (node != common) common = Node::split;
@@ -300,7 +328,7 @@ class Descent {
         return common == Node::gray ? Node::split : common;
     }
 
-    Node visit_octants_apart(const Cell& cell, const Children<Description>& children, Workspace& workspace,
+    Node visit_octants_apart(const Cell& cell, const Children<Description>& children, Path& path,
                              Output& output, double share) {
         const double child_share = share / weight_of_split(children);
         std::array<Node, 8> nodes;
@@ -312,11 +340,12 @@ class Descent {
             const Restricted<Description>& child = children[octant];
             nodes[octant] = child.node;
             if (is_leaf(child.node)) {
-                outputs[octant].leaf(cell.child(i), child, workspace);
+                outputs[octant].leaf(cell.child(i), child, path.workspace);
                 return;
             }
-            std::unique_ptr<Workspace> own = borrow();
-            const Description moved = problem_.transfer(cell.child(i), child.description, workspace, *own);
+            std::unique_ptr<Path> own = borrow();
+            const Description moved =
+                problem_.transfer(cell.child(i), child.description, path.workspace, own->workspace);
             nodes[octant] =
                 visit<true>(cell.child(i), moved, *own, outputs[octant], child_share * weight_of(child));
             give_back(std::move(own));
@@ -337,17 +366,18 @@ class Descent {
         return sum > 0 ? sum : 1;
     }
 
-    // Workspaces are pooled, not thread-local: a thread that waits for its octants may run another sub-tree.
-    std::unique_ptr<Workspace> borrow() {
+    // Paths are pooled, not thread-local: a thread that waits for its octants may run another sub-tree.
+    std::unique_ptr<Path> borrow() {
         const std::scoped_lock lock(pool_mutex_);
-        if (pool_.empty()) return std::make_unique<Workspace>(problem_.make_workspace());
-        std::unique_ptr<Workspace> workspace = std::move(pool_.back());
+        if (pool_.empty()) return std::make_unique<Path>(Path{problem_.make_workspace()});
+        std::unique_ptr<Path> path = std::move(pool_.back());
         pool_.pop_back();
-        return workspace;
+        return path;
     }
-    void give_back(std::unique_ptr<Workspace> workspace) {
+    void give_back(std::unique_ptr<Path> path) {
+        count(*path);
         const std::scoped_lock lock(pool_mutex_);
-        pool_.push_back(std::move(workspace));
+        pool_.push_back(std::move(path));
     }
 
     const Problem& problem_;
@@ -355,15 +385,16 @@ class Descent {
     const Context& context_;
     Progress progress_;
     const int depth_;
-    std::atomic<bool> cancelled_{false};
+    std::atomic<bool> stopped_{false}, has_too_many_nodes_{false};
+    std::atomic<std::uint64_t> kept_nodes_{1};  // the root
     std::mutex pool_mutex_;
-    std::vector<std::unique_ptr<Workspace>> pool_;
+    std::vector<std::unique_ptr<Path>> pool_;
 };
 
 }  // namespace descend_detail
 
 /// Runs the descent of `problem` from the universe. The result does not depend on the number of threads.
-/// Errors: cancelled.
+/// Errors: limit (more than `options.max_nodes`), cancelled.
 template <DescentProblem Problem>
 Result<typename Problem::Output> descend(const Problem& problem, const Context& context = {},
                                          const DescentOptions& options = {}) {

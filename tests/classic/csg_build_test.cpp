@@ -95,13 +95,32 @@ TEST(CsgBuild, PruningIsThreeValuedLogicOnTheOctreesOfThePrimitives) {
         const Result<csg::Program> program = csg::compile(random.tree(1 + random.below(12)), compile_options);
         ASSERT_TRUE(program);
         if (program->words.empty()) continue;
-        const Result<PrimitivewiseOctree> combined = build_by_primitive(*program, 5, {});
+        const Result<PrimitivewiseOctree> combined = build_by_primitive(*program, {.depth = 5}, {});
         CsgDescent::Counters counters;
         const CsgDescent problem(*program, program->words, {5, CsgDescentOptions::LastLevel::keep_gray},
                                  counters);
         Result<CsgDescent::Output> pruned = octree::descend(problem);
         ASSERT_TRUE(pruned);
         EXPECT_EQ(pruned->take_code(), combined->code);
+    }
+}
+
+TEST(CsgBuild, AnOctreeWithMoreNodesThanAllowedIsRefusedByBothMethods) {
+    const Expr ball(csg::Ball{1});
+    for (const CsgMethod method : {CsgMethod::top_down, CsgMethod::classic}) {
+        CsgBuildOptions options = depth_of(6);
+        options.method = method;
+        const Result<CsgOctree> built = build(ball, options);
+        ASSERT_TRUE(built);
+        options.max_nodes = built->stats.peak_nodes;
+        EXPECT_TRUE(build(ball, options));
+        options.max_nodes = built->octree.code().size() - 1;
+        const Result<CsgOctree> refused = build(ball, options);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::limit);
+        options.depth = 21;
+        options.max_nodes = 100'000;
+        EXPECT_FALSE(build(ball, options));
     }
 }
 

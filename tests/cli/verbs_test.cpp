@@ -183,6 +183,27 @@ TEST_F(Verbs, OctreeIsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(read("one.oct"), read("four.oct"));
 }
 
+TEST_F(Verbs, OctreesOfTooManyNodesAreRefusedWithWhatToChange) {
+    ASSERT_EQ(octavo("shape cube -o cube.stl").exit_code, 0);
+    const Ran octree = octavo("octree cube.stl --depth 21 --max-nodes 1.5M -o cube.oct");
+    EXPECT_EQ(octree.exit_code, 4) << octree.err;
+    EXPECT_NE(octree.err.find("cube.stl: the octree has more than 1 500 000 nodes at depth 21"),
+              std::string::npos);
+    EXPECT_NE(octree.err.find("max-nodes"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(path("cube.oct")));
+    write("ball.csg", "sphere(r = 1);");
+    EXPECT_EQ(octavo("octree ball.csg --depth 21 --max-nodes 100K").exit_code, 4);
+    EXPECT_EQ(octavo("octree ball.csg --depth 6 --max-nodes 100K").exit_code, 0);
+    ASSERT_EQ(octavo("shape gear -o gear.stl").exit_code, 0);
+    const Ran hexmesh = octavo("hexmesh gear.stl --level 17 --max-cells 50K");
+    EXPECT_EQ(hexmesh.exit_code, 4) << hexmesh.err;
+    EXPECT_NE(hexmesh.err.find("max-cells"), std::string::npos);
+    for (const char* wrong : {"0", "K", "-5M", "12X", "nan", "1e30"}) {
+        const Ran usage = octavo(std::string("octree cube.stl --max-nodes ") + wrong);
+        EXPECT_EQ(usage.exit_code, 2) << wrong;
+    }
+}
+
 TEST_F(Verbs, OctreeTakesAPrecision) {
     ASSERT_EQ(octavo("shape cube -o cube.ply").exit_code, 0);
     const Ran ran = octavo("octree cube.ply --precision 0.01 --json");

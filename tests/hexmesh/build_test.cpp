@@ -61,6 +61,26 @@ void expect_exact_volumes(const Built& built) {
         EXPECT_NEAR(solid.filled_volume / solid.exact_volume, 1, 1e-9);
 }
 
+TEST(Build, RefusesMoreCellsThanAllowed) {
+    const Mesh gear = mesh::gear();
+    for (const int layers : {0, 3}) {
+        Options options{.level = 5, .layers = layers};
+        const Result<Built> built = build(std::span(&gear, 1), options);
+        ASSERT_TRUE(built);
+        options.max_cells = built->report.tree_cells;
+        EXPECT_TRUE(build(std::span(&gear, 1), options));
+        for (const std::uint64_t fewer : {built->report.tree_cells - 1, built->report.tree_cells / 2}) {
+            options.max_cells = fewer;
+            const Result<Built> refused = build(std::span(&gear, 1), options);
+            ASSERT_FALSE(refused);
+            EXPECT_EQ(refused.error().code, ErrorCode::limit);
+        }
+    }
+    const Result<Built> huge = build(std::span(&gear, 1), {.level = 17, .max_cells = 50'000});
+    ASSERT_FALSE(huge);
+    EXPECT_EQ(huge.error().code, ErrorCode::limit);
+}
+
 TEST(Build, FillsEachSolidToItsExactVolume) {
     const std::vector<Mesh> solids{mesh::icosphere(1, 6),
                                    mesh::gear(),

@@ -187,6 +187,46 @@ TEST(Descend, MergesDecidedSiblingsOfOneColourAndNeverGrayOnes) {
     }
 }
 
+TEST(Descend, RefusesMoreNodesThanAllowedAndExactlyThese) {
+    const Balls balls(random_balls(300, exact::universe_side / 16, 3), 7);
+    const std::uint64_t nodes = build(balls, with_threads(1)).code().size();
+    for (const int threads : {1, 4})
+        for (const std::size_t fork_weight : {std::size_t{0}, std::size_t{1000}}) {
+            DescentOptions options;
+            options.fork_weight = fork_weight;
+            options.max_nodes = nodes;
+            EXPECT_TRUE(descend(balls, with_threads(threads), options));
+            options.max_nodes = nodes - 1;
+            const Result<DfOutput> refused = descend(balls, with_threads(threads), options);
+            ASSERT_FALSE(refused);
+            EXPECT_EQ(refused.error().code, ErrorCode::limit);
+            EXPECT_NE(refused.error().sentence.find("at depth 7"), std::string::npos);
+        }
+    DescentOptions one;
+    one.max_nodes = 1;
+    EXPECT_TRUE(descend(Monochrome{Node::black}, with_threads(1), one)) << "merged nodes do not count";
+}
+
+// Every cell down to the last level is split: 8^21 nodes.
+struct Endless : Monochrome {
+    int depth() const { return max_level; }
+    void restrict_to_children(const Cell&, const Description&, Workspace&,
+                              Children<Description>& children) const {
+        for (Restricted<Description>& child : children) child.node = Node::split;
+    }
+};
+
+TEST(Descend, StopsSoonWhenThereAreTooManyNodes) {
+    for (const int threads : {1, 3}) {
+        DescentOptions options;
+        options.fork_weight = 0;
+        options.max_nodes = 1'000'000;
+        const Result<DfOutput> refused = descend(Endless{}, with_threads(threads), options);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::limit);
+    }
+}
+
 TEST(Descend, ReportsProgressThatRisesToOne) {
     for (const int threads : {1, 3}) {
         std::mutex mutex;
