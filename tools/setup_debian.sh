@@ -11,7 +11,7 @@ packages=(g++ cmake ninja-build pkg-config libtbb-dev zlib1g-dev libpugixml-dev 
           libfmt-dev libcairo2-dev libassimp-dev libpolyclipping-dev)
 for option in "$@"; do
     case $option in
-        --tests) packages+=(libgtest-dev libgmock-dev librapidcheck-dev libboost-dev libgmp-dev clang-format-14 python3 man-db
+        --tests) packages+=(libgtest-dev libgmock-dev libboost-dev libgmp-dev clang-format-14 python3 man-db
                    calculix-ccx python3-meshio libp4est-dev libopenmpi-dev) ;;
         --bench) packages+=(libbenchmark-dev libopenvdb-dev libcgal-dev libembree-dev libboost-iostreams-dev
                    libp4est-dev libopenmpi-dev) ;;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma GCC diagnostic ignored "-Wpsabi"  // vector types stay inside of this file
 #include <cmath>
 
 #include <octavo/boolean/lanes.hpp>

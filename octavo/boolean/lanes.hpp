@@ -10,8 +10,7 @@
 
 #include <octavo/boolean/facet_filter.hpp>
 
-// Lanes of SIMD registers, for use inside a source file only: vector types have no stable ABI, so such files say
-// #pragma GCC diagnostic ignored "-Wpsabi" before they include this one.
+// Lanes of SIMD registers, for use inside a source file only: vector types have no stable ABI.
 //
 // Doubles come half a block at a time: g++ keeps vectors of 32 bytes in registers, but not those of 64.
 

@@ -9,8 +9,7 @@
 #include <octavo/classic/facet.hpp>
 
 // Four facets side by side in SIMD registers, one a lane, as doubles relative to a lattice point. Differences of
-// lattice coordinates are exact doubles. For use inside a source file only: vector types have no stable ABI, so such
-// files say #pragma GCC diagnostic ignored "-Wpsabi".
+// lattice coordinates are exact doubles. For use inside a source file only: vector types have no stable ABI.
 
 namespace octavo::classic {
 

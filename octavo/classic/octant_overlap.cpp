@@ -6,7 +6,6 @@
 #include <octavo/classic/octant_overlap.hpp>
 
 // Vector types are passed in registers only where the machine has them; every such function here is inlined.
-#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace octavo::classic {
 namespace {

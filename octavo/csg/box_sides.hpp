@@ -19,9 +19,6 @@
 // says which points or octants they stand for; no branches, because which of them are taken changes with every leaf.
 // For use inside a source file only, like all vector types.
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace octavo::csg {
 
 /// What three bits stand for, one an axis, given what each does.
@@ -99,5 +96,3 @@ class BoxSides {
 };
 
 }  // namespace octavo::csg
-
-#pragma GCC diagnostic pop

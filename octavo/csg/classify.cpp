@@ -7,8 +7,6 @@
 #include <octavo/csg/classify.hpp>
 #include <octavo/csg/point_sides.hpp>
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // see box_sides.hpp
-
 namespace octavo::csg {
 namespace {
 

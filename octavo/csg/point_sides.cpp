@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma GCC diagnostic ignored "-Wpsabi"  // vectors do not leave this file
 
 #include <octavo/csg/point_sides.hpp>
 #include <octavo/csg/surface_steps.hpp>

@@ -14,9 +14,6 @@
 #include <octavo/octree/morton.hpp>
 #include <octavo/query/closest.hpp>
 
-// Without AVX, vectors of 32 bytes are passed in a way that GCC once changed; here they never leave this file.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace octavo::query {
 namespace {
 

@@ -4,8 +4,6 @@
 #include <octavo/classic/facet_lanes.hpp>
 #include <octavo/query/leaf_filter.hpp>
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // vector types stay within this file
-
 namespace octavo::query {
 namespace {
 
