@@ -7,6 +7,7 @@
 
 #include <octavo/boolean/evaluate.hpp>
 
+#include "effort.hpp"
 #include "solids.hpp"
 
 namespace octavo::boolean {

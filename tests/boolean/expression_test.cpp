@@ -7,6 +7,7 @@
 #include <octavo/boolean/expression.hpp>
 #include <octavo/mesh/transform.hpp>
 
+#include "effort.hpp"
 #include "solids.hpp"
 
 namespace octavo::boolean {

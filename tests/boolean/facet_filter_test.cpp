@@ -9,6 +9,7 @@
 #include <octavo/boolean/facet_filter.hpp>
 #include <octavo/boolean/facet_tree.hpp>
 
+#include "effort.hpp"
 #include "solids.hpp"
 
 // A filter may pass what it likes but must never drop a pair that meets. The oracle tries all vertices and edges in 128-bit

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 #include <numeric>
 #include <random>
@@ -20,12 +19,6 @@
 // found by trying all triples of planes in integer arithmetic.
 
 namespace octavo::tests {
-
-/// How much more than usual to test: $OCTAVO_TEST_EFFORT, 1 by default.
-inline int effort() {
-    const char* text = std::getenv("OCTAVO_TEST_EFFORT");
-    return text ? std::max(1, std::atoi(text)) : 1;
-}
 
 using Grid = std::array<int, 3>;
 

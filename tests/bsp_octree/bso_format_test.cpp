@@ -6,6 +6,7 @@
 #include <octavo/mesh/shapes.hpp>
 
 #include "bsp_octree/solid_cases.hpp"
+#include "effort.hpp"
 #include "io/folder.hpp"
 
 namespace octavo::bsp_octree {

@@ -7,6 +7,7 @@
 #include <octavo/mesh/shapes.hpp>
 
 #include "bsp_octree/solid_cases.hpp"
+#include "effort.hpp"
 
 namespace octavo::bsp_octree {
 namespace {

@@ -8,6 +8,8 @@
 
 #include <octavo/classic/crossing.hpp>
 
+#include "effort.hpp"
+
 namespace octavo::classic {
 namespace {
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include <octavo/octree/linear_octree.hpp>
 
 #include "csg/random_solids.hpp"
+#include "effort.hpp"
 
 namespace octavo::classic {
 namespace {
@@ -17,11 +17,6 @@ using csg::Expr;
 using csg::tests::RandomSolids;
 using csg::tests::Side;
 using octree::Color;
-
-int effort() {
-    const char* text = std::getenv("OCTAVO_TEST_EFFORT");
-    return text ? std::max(1, std::atoi(text)) : 1;
-}
 
 CsgOctree build_or_die(const Expr& expression, const CsgBuildOptions& options, int threads = 1) {
     Context context;
@@ -69,7 +64,7 @@ void expect_right_colors(const Expr& expression, const octree::Octree& tree, int
 
 TEST(CsgBuild, ColoursAreRightForRandomExpressions) {
     RandomSolids random(1);
-    for (int round = 0; round < 60 * effort(); ++round) {
+    for (int round = 0; round < 60 * tests::effort(); ++round) {
         const Expr expression = random.tree(1 + random.below(7));
         expect_right_colors(expression, build_or_die(expression, depth_of(5)).octree, 2, random);
     }
@@ -77,7 +72,7 @@ TEST(CsgBuild, ColoursAreRightForRandomExpressions) {
 
 TEST(CsgBuild, BothMethodsGiveTheSameTree) {
     RandomSolids random(2);
-    for (int round = 0; round < 80 * effort(); ++round) {
+    for (int round = 0; round < 80 * tests::effort(); ++round) {
         const Expr expression = random.tree(1 + random.below(10));
         const CsgOctree top_down = build_or_die(expression, depth_of(5));
         const CsgOctree classic = build_or_die(expression, depth_of(5, CsgMethod::classic));
@@ -89,7 +84,7 @@ TEST(CsgBuild, BothMethodsGiveTheSameTree) {
 
 TEST(CsgBuild, PruningIsThreeValuedLogicOnTheOctreesOfThePrimitives) {
     RandomSolids random(3);
-    for (int round = 0; round < 60 * effort(); ++round) {
+    for (int round = 0; round < 60 * tests::effort(); ++round) {
         csg::CompileOptions compile_options;
         compile_options.universe = Box3{{-5, -5, -5}, {5, 5, 5}};
         const Result<csg::Program> program = csg::compile(random.tree(1 + random.below(12)), compile_options);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 #include <octavo/classic/csg_build.hpp>
 #include <octavo/io/openscad_csg.hpp>
 
+#include "effort.hpp"
 #include "models.hpp"
 
 // Real OpenSCAD trees: the volume that OpenSCAD 2021.01 (CGAL) computed must lie between the lower and the upper
@@ -86,8 +86,7 @@ TEST_P(CsgModels, TheReferenceVolumeLiesBetweenLowerAndUpper) {
     options.skip_unsupported = true;  // one polyhedron is open; OpenSCAD leaves it out too
     const Result<io::CsgFile> file = io::read_csg((tests::models_folder() / path).string(), options);
     ASSERT_TRUE(file) << file.error().describe();
-    const char* const effort = std::getenv("OCTAVO_TEST_EFFORT");
-    const int deepest = effort && std::atoi(effort) >= 10 ? 9 : 7;
+    const int deepest = tests::effort() >= 10 ? 9 : 7;
     const Result<csg::Program> program = csg::compile(file->expression);
     ASSERT_TRUE(program) << program.error().describe();
     double gap = 0;

@@ -16,6 +16,8 @@
 #include <octavo/octree/cell.hpp>
 #include <octavo/octree/linear_octree.hpp>
 
+#include "effort.hpp"
+
 namespace octavo::classic {
 namespace {
 

@@ -9,6 +9,8 @@
 #include <octavo/classic/facet.hpp>
 #include <octavo/classic/octant_overlap.hpp>
 
+#include "effort.hpp"
+
 namespace octavo::classic {
 namespace {
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 #include <random>
 #include <vector>
@@ -16,12 +15,6 @@
 // and coincide.
 
 namespace octavo::tests {
-
-/// How hard to try: the environment's OCTAVO_TEST_EFFORT, 1 by default.
-inline int effort() {
-    const char* value = std::getenv("OCTAVO_TEST_EFFORT");
-    return value ? std::max(1, std::atoi(value)) : 1;
-}
 
 inline void append(mesh::LatticeMesh& mesh, const mesh::LatticeMesh& part) {
     const auto offset = static_cast<mesh::VertexIndex>(mesh.points.size());

@@ -5,6 +5,7 @@
 
 #include <octavo/exact/compare.hpp>
 
+#include "effort.hpp"
 #include "exact/generator.hpp"
 #include "exact/oracle.hpp"
 

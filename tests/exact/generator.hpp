@@ -2,23 +2,19 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <random>
 #include <string>
 
 #include <octavo/exact/intersect.hpp>
 #include <octavo/exact/plane.hpp>
 
+#include "effort.hpp"
+
 // Random and degenerate input for the oracle tests of exact/.
 
 namespace octavo::exact::tests {
 
-/// How often the oracle tests draw, as a multiple of the default (environment variable OCTAVO_TEST_EFFORT).
-inline int effort() {
-    const char* text = std::getenv("OCTAVO_TEST_EFFORT");
-    const int value = text ? std::atoi(text) : 1;
-    return value > 0 ? value : 1;
-}
+using octavo::tests::effort;
 
 class Generator {
   public:

@@ -3,6 +3,7 @@
 
 #include <octavo/exact/intersect.hpp>
 
+#include "effort.hpp"
 #include "exact/generator.hpp"
 #include "exact/oracle.hpp"
 

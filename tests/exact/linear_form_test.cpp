@@ -7,6 +7,7 @@
 #include <octavo/exact/linear_form.hpp>
 #include <octavo/exact/side.hpp>
 
+#include "effort.hpp"
 #include "exact/generator.hpp"
 #include "exact/oracle.hpp"
 

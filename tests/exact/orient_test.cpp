@@ -4,6 +4,7 @@
 #include <octavo/exact/orient.hpp>
 #include <octavo/exact/orient_in_plane.hpp>
 
+#include "effort.hpp"
 #include "exact/generator.hpp"
 #include "exact/oracle.hpp"
 

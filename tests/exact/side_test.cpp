@@ -3,6 +3,7 @@
 
 #include <octavo/exact/side.hpp>
 
+#include "effort.hpp"
 #include "exact/generator.hpp"
 #include "exact/oracle.hpp"
 

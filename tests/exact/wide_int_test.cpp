@@ -3,6 +3,7 @@
 
 #include <octavo/exact/wide_int.hpp>
 
+#include "effort.hpp"
 #include "exact/generator.hpp"
 #include "exact/oracle.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <set>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/shapes.hpp>
 
+#include "effort.hpp"
 #include "models.hpp"
 
 namespace octavo::hexmesh {
@@ -361,6 +363,31 @@ TEST(Build, FillsRealModelsToTheirExactVolume) {
         ++tested;
     }
     EXPECT_EQ(tested, 6);
+}
+
+TEST(Build, FillsEveryModelThereIsToItsExactVolume) {
+    if (tests::effort() < 10) GTEST_SKIP() << "set OCTAVO_TEST_EFFORT to 10 or more";
+    OCTAVO_NEEDS_MODEL("classic");
+    int filled = 0, refused = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(tests::models_folder())) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".ply" && extension != ".obj" && extension != ".off" && extension != ".stl")
+            continue;
+        const auto model = io::read_mesh(entry.path().string());
+        if (!model) continue;
+        const Result<Built> built = build(std::span(&model->mesh, 1), {.level = 7});
+        if (!built) {
+            EXPECT_EQ(built.error().code, ErrorCode::not_a_solid) << entry.path();
+            EXPECT_FALSE(built.error().place.faces.empty()) << entry.path();
+            ++refused;
+            continue;
+        }
+        SCOPED_TRACE(entry.path());
+        expect_exact_volumes(*built);
+        ++filled;
+    }
+    std::cout << filled << " models filled, " << refused << " refused with the place\n";
+    EXPECT_GT(filled, 0);
 }
 
 }  // namespace

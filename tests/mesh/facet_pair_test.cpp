@@ -11,6 +11,8 @@
 #include <octavo/mesh/facet_octree.hpp>
 #include <octavo/mesh/facet_pair.hpp>
 
+#include "effort.hpp"
+
 namespace octavo::mesh {
 namespace {
 
@@ -149,8 +151,7 @@ TEST(FacetContact, AgreesWithConstructedIntersections) {
     // On a tiny grid nearly everything is degenerate; on larger ones general. Every number of shared vertices.
     std::mt19937 random(21);
     std::array<std::array<int, 5>, 3> seen{};
-    const char* effort = std::getenv("OCTAVO_TEST_EFFORT");
-    const int rounds = 24000 * (effort ? std::atoi(effort) : 1);
+    const int rounds = 24000 * tests::effort();
     for (int round = 0; round < rounds; ++round) {
         const int span = std::array{1, 2, 3, 6, 40}[static_cast<std::size_t>(round) % 5];
         std::uniform_int_distribution<int> coordinate(0, span);

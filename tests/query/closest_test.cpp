@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <cstdlib>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 
 #include "bp_octree/rational.hpp"
 #include "bp_octree/solids.hpp"
+#include "effort.hpp"
 
 namespace octavo::query {
 namespace {
@@ -93,10 +93,7 @@ std::vector<Vec3> trying_points(const mesh::LatticeMesh& mesh, std::size_t rando
 }
 
 /// So many points, or more when OCTAVO_TEST_EFFORT says so.
-std::size_t scaled(std::size_t points) {
-    const char* effort = std::getenv("OCTAVO_TEST_EFFORT");
-    return points * static_cast<std::size_t>(effort ? std::max(1, std::atoi(effort)) : 1);
-}
+std::size_t scaled(std::size_t points) { return points * static_cast<std::size_t>(tests::effort()); }
 
 void expect_exact(const mesh::LatticeMesh& mesh, std::span<const Vec3> points) {
     ClosestOptions options;

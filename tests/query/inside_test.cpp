@@ -14,6 +14,8 @@
 #include <octavo/mesh/snap.hpp>
 #include <octavo/query/inside.hpp>
 
+#include "effort.hpp"
+
 namespace octavo::query {
 namespace {
 
