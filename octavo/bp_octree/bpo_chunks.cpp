@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <bit>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/checksum.hpp>
 #include <octavo/bp_octree/bit_stream.hpp>
 #include <octavo/bp_octree/bpo_chunks.hpp>
-#include <octavo/io/bytes.hpp>
 
 namespace octavo::bp_octree {
 
@@ -53,7 +53,7 @@ Result<TriangleChunk> decode_triangle_chunk(const ChunkEntry& entry, std::span<c
         return damaged_bpo("the checksum of a chunk is wrong", entry.offset);
     if (bytes.size() < 8) return damaged_bpo("a chunk of triangles is too short", entry.offset);
     const auto* data = reinterpret_cast<const std::byte*>(bytes.data());
-    const auto total = io::load<std::uint32_t>(data), size = io::load<std::uint32_t>(data + 4);
+    const auto total = octavo::load<std::uint32_t>(data), size = octavo::load<std::uint32_t>(data + 4);
     if (size > bytes.size() - 8 || entry.count > total)
         return damaged_bpo("a chunk of triangles is wrong", entry.offset);
     auto geometry = decode_geometry(bytes.subspan(8, size), total);

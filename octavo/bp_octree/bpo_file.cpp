@@ -39,7 +39,7 @@ Result<io::WriteReport> write_bpo(const std::string& path, std::span<const std::
                                   const Context& context) {
     Result<io::Output> output = io::Output::to_file(path);
     if (!output) return output.error();
-    output->append(io::Bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()));
+    output->append(octavo::Bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()));
     if (context.cancelled()) return Context::cancelled_error();
     if (Status status = output->commit(); !status) return status.error();
     io::WriteReport report;

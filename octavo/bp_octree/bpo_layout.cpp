@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/checksum.hpp>
 #include <octavo/bp_octree/bpo_layout.hpp>
-#include <octavo/io/bytes.hpp>
 
 namespace octavo::bp_octree {
 namespace {
@@ -17,7 +17,7 @@ class Writer {
     template <class T>
     Writer& operator<<(T value) {
         std::array<std::byte, sizeof(T)> bytes;
-        io::store(bytes.data(), value);
+        octavo::store(bytes.data(), value);
         for (const std::byte byte : bytes) out_.push_back(static_cast<std::uint8_t>(byte));
         return *this;
     }
@@ -31,7 +31,7 @@ class Reader {
     explicit Reader(std::span<const std::uint8_t> bytes) : at_(bytes.data()) {}
     template <class T>
     T get() {
-        const T value = io::load<T>(reinterpret_cast<const std::byte*>(at_));
+        const T value = octavo::load<T>(at_);
         at_ += sizeof(T);
         return value;
     }
@@ -66,7 +66,7 @@ void put_head(const BpoHead& head, std::span<const LevelFigures> levels, std::ve
     for (const LevelFigures& level : levels)
         writer << level.split << level.gray << level.white << level.black << level.planes << level.volume;
     const std::uint32_t checksum = crc32_around(out, checksum_at);
-    io::store(reinterpret_cast<std::byte*>(&out[checksum_at]), checksum);
+    octavo::store(&out[checksum_at], checksum);
 }
 
 void put_index(std::span<const ChunkEntry> entries, std::vector<std::uint8_t>& out) {
@@ -82,7 +82,7 @@ void put_index(std::span<const ChunkEntry> entries, std::vector<std::uint8_t>& o
         }
         out.resize(page + page_size, 0);
         const std::uint32_t checksum = crc32_of(std::span(out).subspan(page + 4, page_size - 4));
-        io::store(reinterpret_cast<std::byte*>(&out[page]), checksum);
+        octavo::store(&out[page], checksum);
     }
 }
 

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <bit>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/checksum.hpp>
 #include <octavo/bp_octree/bit_stream.hpp>
 #include <octavo/bp_octree/bpo_format.hpp>
 #include <octavo/bp_octree/bpo_layout.hpp>
 #include <octavo/bp_octree/geometry_codec.hpp>
-#include <octavo/io/bytes.hpp>
 
 namespace octavo::bp_octree {
 namespace {
@@ -146,9 +146,8 @@ class Encoder {
         entry.count = numbered_ - entry.first;
 
         std::vector<std::uint8_t> bytes(8);
-        io::store(reinterpret_cast<std::byte*>(bytes.data()), static_cast<std::uint32_t>(members.size()));
-        io::store(reinterpret_cast<std::byte*>(bytes.data() + 4),
-                  static_cast<std::uint32_t>(coded.bytes.size()));
+        octavo::store(bytes.data(), static_cast<std::uint32_t>(members.size()));
+        octavo::store(bytes.data() + 4, static_cast<std::uint32_t>(coded.bytes.size()));
         bytes.insert(bytes.end(), coded.bytes.begin(), coded.bytes.end());
         const std::vector<std::uint8_t> tail = std::move(flags).take();
         bytes.insert(bytes.end(), tail.begin(), tail.end());

@@ -32,7 +32,7 @@ Result<io::WriteReport> write_bso(const std::string& path, const BspOctree& octr
     Result<io::Output> output = io::Output::to_file(path);
     if (!output) return output.error();
     const std::vector<std::uint8_t> bytes = encode(octree);
-    output->append(io::Bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()));
+    output->append(octavo::Bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()));
     if (context.cancelled()) return Context::cancelled_error();
     if (Status status = output->commit(); !status) return status.error();
     io::WriteReport report;

@@ -4,8 +4,8 @@
 #include <bit>
 #include <string>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/checksum.hpp>
-#include <octavo/base/little_endian.hpp>
 #include <octavo/bp_octree/bit_stream.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
 #include <octavo/exact/orient.hpp>
@@ -77,18 +77,18 @@ class Encoder {
         for (const mesh::VertexIndex point : weld.index) points.put(tables, point);
         std::vector<std::uint8_t> bytes(header_bytes, 0);
         std::copy(magic.begin(), magic.end(), bytes.begin());
-        octavo::put(&bytes[version_at], version);
-        octavo::put(&bytes[exponent_at], static_cast<std::int32_t>(octree.lattice().exponent()));
-        octavo::put(&bytes[depth_at], static_cast<std::uint32_t>(octree.options().depth));
+        octavo::store(&bytes[version_at], version);
+        octavo::store(&bytes[exponent_at], static_cast<std::int32_t>(octree.lattice().exponent()));
+        octavo::store(&bytes[depth_at], static_cast<std::uint32_t>(octree.options().depth));
         for (std::size_t axis = 0; axis < 3; ++axis)
-            octavo::put(&bytes[origin_at + 8 * axis], octree.lattice().origin()[axis]);
-        octavo::put(&bytes[points_at], static_cast<std::uint32_t>(weld.kept.size()));
-        octavo::put(&bytes[planes_at], static_cast<std::uint32_t>(order_.size()));
-        octavo::put(&bytes[leaf_planes_at], octree.options().planes);
-        octavo::put(&bytes[stop_at], static_cast<std::uint32_t>(octree.options().stop));
+            octavo::store(&bytes[origin_at + 8 * axis], octree.lattice().origin()[axis]);
+        octavo::store(&bytes[points_at], static_cast<std::uint32_t>(weld.kept.size()));
+        octavo::store(&bytes[planes_at], static_cast<std::uint32_t>(order_.size()));
+        octavo::store(&bytes[leaf_planes_at], octree.options().planes);
+        octavo::store(&bytes[stop_at], static_cast<std::uint32_t>(octree.options().stop));
         for (const std::vector<std::uint8_t>& part : {std::move(tables).take(), std::move(bits_).take()})
             bytes.insert(bytes.end(), part.begin(), part.end());
-        octavo::put(&bytes[checksum_at], crc32_around(bytes, checksum_at));
+        octavo::store(&bytes[checksum_at], crc32_around(bytes, checksum_at));
         return bytes;
     }
 
@@ -268,32 +268,32 @@ Result<BspOctree> decode(std::span<const std::uint8_t> bytes) {
     if (!looks_like_bso(bytes)) return refuse("this is no .bso file: it does not begin like one", 0);
     if (bytes.size() < header_bytes)
         return refuse("the .bso file ends inside its header of 64 bytes", bytes.size());
-    if (const auto found = get<std::uint32_t>(&bytes[version_at]); found != version) {
+    if (const auto found = load<std::uint32_t>(&bytes[version_at]); found != version) {
         Error error =
             refuse("the .bso file has version " + std::to_string(found) + "; this program knows version 1",
                    version_at);
         error.code = ErrorCode::unsupported;
         return error;
     }
-    if (get<std::uint32_t>(&bytes[checksum_at]) != crc32_around(bytes, checksum_at))
+    if (load<std::uint32_t>(&bytes[checksum_at]) != crc32_around(bytes, checksum_at))
         return refuse("the .bso file is damaged: its checksum does not agree", checksum_at);
-    const auto depth = get<std::uint32_t>(&bytes[depth_at]),
-               leaf_planes = get<std::uint32_t>(&bytes[leaf_planes_at]),
-               stop = get<std::uint32_t>(&bytes[stop_at]);
+    const auto depth = load<std::uint32_t>(&bytes[depth_at]),
+               leaf_planes = load<std::uint32_t>(&bytes[leaf_planes_at]),
+               stop = load<std::uint32_t>(&bytes[stop_at]);
     if (depth > exact::coordinate_bits)
         return refuse("the depth of the .bso file is not in 0 to 26", depth_at);
     if (stop > 1) return refuse("the .bso file has a stop rule that is not known", stop_at);
     std::array<std::int64_t, 3> origin;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        origin[axis] = get<std::int64_t>(&bytes[origin_at + 8 * axis]);
+        origin[axis] = load<std::int64_t>(&bytes[origin_at + 8 * axis]);
     const Result<exact::Lattice> lattice =
-        exact::Lattice::from_parts(get<std::int32_t>(&bytes[exponent_at]), origin);
+        exact::Lattice::from_parts(load<std::int32_t>(&bytes[exponent_at]), origin);
     if (!lattice) return refuse(lattice.error().sentence, exponent_at);
 
     auto store = std::make_shared<Store>();
     const Result<NodeRef> root =
-        Decoder(*store, bytes.subspan(header_bytes), get<std::uint32_t>(&bytes[points_at]),
-                get<std::uint32_t>(&bytes[planes_at]))
+        Decoder(*store, bytes.subspan(header_bytes), load<std::uint32_t>(&bytes[points_at]),
+                load<std::uint32_t>(&bytes[planes_at]))
             .read();
     if (!root) return root.error();
     Options options;

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/context.hpp>
-#include <octavo/io/bytes.hpp>
 #include <octavo/io/file_mesh.hpp>
 #include <octavo/io/read.hpp>
 

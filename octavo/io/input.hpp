@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
-#include <octavo/io/bytes.hpp>
 
 // The whole of a file in memory. It is read rather than mapped: another program that shortens a mapped file
 // kills its readers with SIGBUS, and the copy costs little beside parsing.

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/result.hpp>
 #include <octavo/base/vec3.hpp>
-#include <octavo/io/bytes.hpp>
 #include <octavo/io/columns.hpp>
 #include <octavo/io/output.hpp>
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/result.hpp>
-#include <octavo/io/bytes.hpp>
 #include <octavo/io/number.hpp>
 
 // Where writers put their bytes: a file, standard output, or memory. A file is written under a temporary name

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/context.hpp>
-#include <octavo/io/bytes.hpp>
 #include <octavo/io/file_mesh.hpp>
 #include <octavo/io/output.hpp>
 #include <octavo/io/write.hpp>

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/result.hpp>
-#include <octavo/io/bytes.hpp>
 
 // The header of a PLY file: what the body holds, in which order and types.
 

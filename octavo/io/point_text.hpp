@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
 #include <octavo/base/vec3.hpp>
-#include <octavo/io/bytes.hpp>
 
 // Points as text, a line each; points.hpp says what is understood.
 

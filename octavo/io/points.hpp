@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
 #include <octavo/base/vec3.hpp>
-#include <octavo/io/bytes.hpp>
 
 // Reads lists of points, as queries take them:
 //

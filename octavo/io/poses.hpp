@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
 #include <octavo/base/vec3.hpp>
-#include <octavo/io/bytes.hpp>
 
 // Reads lists of poses, as milling takes them: text, a pose a line. Three numbers are where the tool's origin goes;
 // twelve are the first three rows of a 4 × 4 matrix, row-major. Numbers are separated by commas, semicolons, tabs or

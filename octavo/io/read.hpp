@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
-#include <octavo/io/bytes.hpp>
 #include <octavo/mesh/mesh.hpp>
 
 // Reads meshes: STL, OBJ, PLY, OFF and 3MF by readers of our own, which take every decimal to the nearest

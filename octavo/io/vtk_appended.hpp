@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <octavo/io/bytes.hpp>
+#include <octavo/base/bytes.hpp>
 #include <octavo/io/output.hpp>
 
 // The arrays of a VTK XML file in its appended section, raw and compressed by zlib (VTK User's Guide 11, "VTK

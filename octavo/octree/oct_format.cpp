@@ -4,8 +4,8 @@
 #include <cstring>
 #include <string>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/checksum.hpp>
-#include <octavo/base/little_endian.hpp>
 #include <octavo/octree/oct_format.hpp>
 
 namespace octavo::octree {
@@ -43,17 +43,17 @@ std::vector<std::uint8_t> encode(const Octree& octree) {
     const DfCode& code = octree.code();
     std::vector<std::uint8_t> bytes(header_bytes + (code.size() + 3) / 4, 0);
     std::copy(magic.begin(), magic.end(), bytes.begin());
-    put(&bytes[version_at], version);
-    put(&bytes[depth_at], static_cast<std::uint32_t>(octree.depth()));
-    put(&bytes[exponent_at], static_cast<std::int32_t>(octree.lattice().exponent()));
+    store(&bytes[version_at], version);
+    store(&bytes[depth_at], static_cast<std::uint32_t>(octree.depth()));
+    store(&bytes[exponent_at], static_cast<std::int32_t>(octree.lattice().exponent()));
     for (std::size_t axis = 0; axis < 3; ++axis)
-        put(&bytes[origin_at + 8 * axis], octree.lattice().origin()[axis]);
-    put(&bytes[nodes_at], static_cast<std::uint64_t>(code.size()));
+        store(&bytes[origin_at + 8 * axis], octree.lattice().origin()[axis]);
+    store(&bytes[nodes_at], static_cast<std::uint64_t>(code.size()));
     for (std::size_t i = header_bytes; i < bytes.size(); ++i) {
         const std::size_t offset = i - header_bytes;
         bytes[i] = static_cast<std::uint8_t>(code.words()[offset / 8] >> (8 * (offset % 8)));
     }
-    put(&bytes[checksum_at], crc32_around(bytes, checksum_at));
+    store(&bytes[checksum_at], crc32_around(bytes, checksum_at));
     return bytes;
 }
 
@@ -61,7 +61,7 @@ Result<Octree> decode(std::span<const std::uint8_t> bytes) {
     if (!looks_like_oct(bytes)) return refuse("this is no .oct file: it does not begin like one", 0);
     if (bytes.size() < header_bytes)
         return refuse("the .oct file ends inside its header of 64 bytes", bytes.size());
-    const std::uint32_t file_version = get<std::uint32_t>(&bytes[version_at]);
+    const std::uint32_t file_version = load<std::uint32_t>(&bytes[version_at]);
     if (file_version != version) {
         Error error = refuse(
             "the .oct file has version " + std::to_string(file_version) + "; this program knows version 1",
@@ -69,25 +69,25 @@ Result<Octree> decode(std::span<const std::uint8_t> bytes) {
         error.code = ErrorCode::unsupported;
         return error;
     }
-    const std::uint64_t nodes = get<std::uint64_t>(&bytes[nodes_at]);
+    const std::uint64_t nodes = load<std::uint64_t>(&bytes[nodes_at]);
     const std::uint64_t code_bytes = bytes.size() - header_bytes;
     if (nodes / 4 + (nodes % 4 != 0) != code_bytes)
         return refuse("the .oct file claims " + std::to_string(nodes) + " nodes but holds " +
                           std::to_string(code_bytes) + " bytes of them, four to a byte",
                       nodes_at);
-    if (get<std::uint32_t>(&bytes[checksum_at]) != crc32_around(bytes, checksum_at))
+    if (load<std::uint32_t>(&bytes[checksum_at]) != crc32_around(bytes, checksum_at))
         return refuse("the .oct file is damaged: its checksum does not agree", checksum_at);
-    if (get<std::uint64_t>(&bytes[reserved_at]) != 0)
+    if (load<std::uint64_t>(&bytes[reserved_at]) != 0)
         return refuse("the reserved bytes of the .oct header are not zero", reserved_at);
-    const std::uint32_t depth = get<std::uint32_t>(&bytes[depth_at]);
+    const std::uint32_t depth = load<std::uint32_t>(&bytes[depth_at]);
     if (depth > max_level)
         return refuse("the depth of the octree is " + std::to_string(depth) + ", not in 0 to 21", depth_at);
 
     std::array<std::int64_t, 3> origin;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        origin[axis] = get<std::int64_t>(&bytes[origin_at + 8 * axis]);
+        origin[axis] = load<std::int64_t>(&bytes[origin_at + 8 * axis]);
     Result<exact::Lattice> lattice =
-        exact::Lattice::from_parts(get<std::int32_t>(&bytes[exponent_at]), origin);
+        exact::Lattice::from_parts(load<std::int32_t>(&bytes[exponent_at]), origin);
     if (!lattice) return refuse(lattice.error().sentence, exponent_at);
 
     Result<DfCode> code = read_code(bytes.subspan(header_bytes), nodes);

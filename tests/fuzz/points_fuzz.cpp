@@ -11,7 +11,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace octavo;
     const auto bits = [](double value) { return value == value ? std::bit_cast<std::uint64_t>(value) : 0; };
-    const io::Bytes bytes = io::bytes_of({reinterpret_cast<const char*>(data), size});
+    const octavo::Bytes bytes = octavo::bytes_of({reinterpret_cast<const char*>(data), size});
     const Result<io::ReadPoints> first = io::read_points(bytes);
     if (!first) {
         OCTAVO_CHECK(!first.error().sentence.empty(), "an error has a sentence");

@@ -29,7 +29,7 @@ inline void check_sound(const io::ReadMesh& read) {
 inline void read_write_read(const std::uint8_t* data, std::size_t size, const char* format,
                             io::Encoding encoding) {
     const io::ReadOptions options{.format = format, .max_triangles = 1'000'000};
-    const io::Bytes bytes = io::bytes_of({reinterpret_cast<const char*>(data), size});
+    const octavo::Bytes bytes = octavo::bytes_of({reinterpret_cast<const char*>(data), size});
     const Result<io::ReadMesh> first = io::read_mesh(bytes, options);
     const Result<io::ReadPolygons> polygons = io::read_polygons(bytes, options);
     if (!first) {

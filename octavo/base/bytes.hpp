@@ -11,7 +11,7 @@
 
 // Numbers in bytes of a stated order, at any alignment.
 
-namespace octavo::io {
+namespace octavo {
 
 using Bytes = std::span<const std::byte>;
 
@@ -38,19 +38,20 @@ T byte_swapped(T value) {
 }
 }  // namespace detail
 
-template <class T, std::endian order = std::endian::little>
-T load(const std::byte* from) {
-    static_assert(std::is_arithmetic_v<T>);
+/// From std::byte or std::uint8_t.
+template <class T, std::endian order = std::endian::little, class Byte>
+T load(const Byte* from) {
+    static_assert(std::is_arithmetic_v<T> && sizeof(Byte) == 1);
     T value;
     std::memcpy(&value, from, sizeof value);
     return order == std::endian::native ? value : detail::byte_swapped(value);
 }
 
-template <class T, std::endian order = std::endian::little>
-void store(std::byte* to, T value) {
-    static_assert(std::is_arithmetic_v<T>);
+template <class T, std::endian order = std::endian::little, class Byte>
+void store(Byte* to, T value) {
+    static_assert(std::is_arithmetic_v<T> && sizeof(Byte) == 1);
     if (order != std::endian::native) value = detail::byte_swapped(value);
     std::memcpy(to, &value, sizeof value);
 }
 
-}  // namespace octavo::io
+}  // namespace octavo
