@@ -117,11 +117,10 @@ class Assembler {
         if (object.complete) return &object;
         if (!is_new)
             return bad("the object " + std::to_string(placement.object) + " is a component of itself");
-        const auto same_id = [&](const ThreeMfObject& candidate) { return candidate.id == placement.object; };
-        const auto data = std::find_if((*part)->objects.begin(), (*part)->objects.end(), same_id);
-        if (data == (*part)->objects.end())
+        const ThreeMfObject* const data = (*part)->find(placement.object);
+        if (!data)
             return bad("the part " + (*part)->name + " has no object " + std::to_string(placement.object));
-        object.data = &*data;
+        object.data = data;
         object.triangles = data->triangles.size();
         object.vertices = data->vertices.size();
         for (const ThreeMfPlacement& component : data->components) {

@@ -108,6 +108,7 @@ class PartReader {
             if (!component) return component.error();
             object.components.push_back(std::move(*component));
         }
+        part_.object_of_id.try_emplace(object.id, part_.objects.size());
         part_.objects.push_back(std::move(object));
         return {};
     }

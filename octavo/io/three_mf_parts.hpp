@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <octavo/base/result.hpp>
@@ -35,6 +36,13 @@ struct ThreeMfPart {
     std::string unit;
     std::vector<ThreeMfObject> objects;
     std::vector<ThreeMfPlacement> build;
+    std::unordered_map<std::uint32_t, std::size_t> object_of_id;  ///< the first, when several have one id
+
+    /// The object of that id; nullptr when there is none.
+    const ThreeMfObject* find(std::uint32_t id) const {
+        const auto at = object_of_id.find(id);
+        return at == object_of_id.end() ? nullptr : &objects[at->second];
+    }
 };
 
 /// Reads the XML of the part `name`.

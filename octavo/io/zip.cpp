@@ -123,6 +123,13 @@ std::uint32_t checksum_of(Bytes bytes) {
     return crc32_of({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
+/// The name in lower case and without a leading slash.
+std::string comparable(std::string_view name) {
+    std::string result(name.starts_with('/') ? name.substr(1) : name);
+    for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return result;
+}
+
 }  // namespace
 
 Result<ZipReader> ZipReader::open(Bytes archive) {
@@ -157,6 +164,7 @@ Status ZipReader::read_directory() {
         entry.size = long_at(archive_, at + 24);
         entry.local_header = long_at(archive_, at + 42);
         entry.name = text_of(archive_.subspan(at + directory_size, name));
+        entry_of_name_.try_emplace(comparable(entry.name), entries_.size());
         entries_.push_back(std::move(entry));
         at += directory_size + name + rest;
     }
@@ -164,15 +172,8 @@ Status ZipReader::read_directory() {
 }
 
 const ZipEntry* ZipReader::find(std::string_view name) const {
-    const auto lower = [](std::string_view text) {
-        std::string result(text.starts_with('/') ? text.substr(1) : text);
-        for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-        return result;
-    };
-    const std::string wanted = lower(name);
-    for (const ZipEntry& entry : entries_)
-        if (lower(entry.name) == wanted) return &entry;
-    return nullptr;
+    const auto at = entry_of_name_.find(comparable(name));
+    return at == entry_of_name_.end() ? nullptr : &entries_[at->second];
 }
 
 Result<Bytes> ZipReader::packed(const ZipEntry& entry) const {

@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
+#include <octavo/base/bytes.hpp>
 #include <octavo/base/result.hpp>
-#include <octavo/io/bytes.hpp>
 #include <octavo/io/output.hpp>
 
 // The part of ZIP (PKWARE, APPNOTE.TXT, 2022) that 3MF needs: entries stored or deflated, found through the
@@ -50,6 +51,7 @@ class ZipReader {
 
     Bytes archive_;
     std::vector<ZipEntry> entries_;
+    std::unordered_map<std::string, std::size_t> entry_of_name_;  ///< by names as `find` compares them
 };
 
 /// Appends an archive to an output, entry by entry; the same entries always give the same bytes.

@@ -206,6 +206,31 @@ TEST(ThreeMf, RefusesExplosionsOfVerticesThatFewTrianglesUse) {
     }
 }
 
+// Looked up one after the other, this many objects and parts took minutes.
+TEST(ThreeMf, FindsEachOfManyObjectsAndParts) {
+    std::string resources, build;
+    for (int id = 1; id <= 100'000; ++id) {
+        resources += "<object id=\"" + std::to_string(id) + "\"/>\n";
+        build += "<item objectid=\"" + std::to_string(id) + "\"/>\n";
+    }
+    resources += "<object id=\"100001\">" + one_triangle + "</object>\n";
+    resources += "<object id=\"100001\"/>\n";  // the first of an id counts
+    build += "<item objectid=\"100001\"/>\n";
+    EXPECT_EQ(must_read(file_of(resources, build), "3mf").mesh.triangles.size(), 1U);
+
+    Parts parts{{"3D/3dmodel.model", ""}};
+    std::string items;
+    constexpr int part_count = 20'000;
+    for (int i = 0; i < part_count; ++i) {
+        const std::string name = "3D/Part" + std::to_string(i) + ".model";
+        parts.emplace_back(name, "<model><resources>" + object_1 + "</resources></model>");
+        items += "<item objectid=\"1\" p:path=\"/3d/pART" + std::to_string(i) + ".model\"/>";
+    }
+    parts[0].second = "<model xmlns=\"core\" xmlns:p=\"http://x/production/2015\"><resources/><build>" +
+                      items + "</build></model>";
+    EXPECT_EQ(must_read(archive_of(parts), "3mf").mesh.triangles.size(), std::size_t{part_count});
+}
+
 TEST(ThreeMf, RefusesBombs) {
     const std::string bomb = file_of(object_1 + std::string(20'000'000, ' '), "<item objectid=\"1\"/>");
     EXPECT_LT(bomb.size(), 200'000u);
