@@ -35,6 +35,9 @@ struct CsgReadOptions {
     std::uint64_t most_values = 50'000'000;
     /// Vertices of one faceted primitive or extrusion.
     std::uint64_t most_vertices = 10'000'000;
+    /// Corners round one faceted circle, cylinder, ball, offset or body of revolution: what they take grows with the
+    /// square. Truly round ones may have any $fn.
+    int most_segments = 1 << 16;
 };
 
 struct CsgFile {
@@ -46,7 +49,8 @@ struct CsgFile {
 
 /// Reads the file `path`, or standard input when it is "-"; imports are looked for beside it. Errors, with line and
 /// column: bad_input (grammar, unknown nodes, wrong or missing parameters, more nodes or numbers than the options
-/// allow), unsupported, not_a_solid (the tree is flat, an open polyhedron), limit (a primitive of too many vertices),
+/// allow), unsupported, not_a_solid (the tree is flat, an open polyhedron), limit (a primitive of too many
+/// vertices or segments),
 /// io, cancelled.
 Result<CsgFile> read_csg(const std::string& path, const CsgReadOptions& options = {},
                          const Context& context = {});

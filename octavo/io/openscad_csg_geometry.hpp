@@ -39,6 +39,8 @@ struct Scope {
     void warn(const Node& node, const std::string& sentence) const;
     /// Whether a mesh of so many vertices is too large; then the error says so.
     std::optional<Error> too_large(const Node& node, double vertices) const;
+    /// The same of something round that becomes a polygon or polyhedron.
+    std::optional<Error> too_fine(const Node& node, int segments) const;
     /// An error that names the node; with `skip_unsupported` a warning and empty geometry.
     Result<Geometry> unsupported(const Node& node, const std::string& why) const;
 };

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include <octavo/base/grouped.hpp>
 #include <octavo/csg/convex_hull.hpp>
 #include <octavo/csg/convex_pieces.hpp>
 #include <octavo/csg/extrude.hpp>
@@ -253,6 +254,7 @@ Result<Geometry> offset(const Node& node, Children children, const Scope& scope)
     }
     options.segments = csg::segments_of(std::fabs(distance), p.roundness());
     if (p.error()) return *p.error();
+    if (std::optional<Error> error = scope.too_fine(node, options.segments)) return *error;
     const Geometry geometry = unite(node, std::move(children), scope);
     if (!geometry.is_flat()) return Geometry::none();
     return Geometry::of(csg::offset(geometry.region, distance, options));
@@ -315,6 +317,7 @@ Result<Geometry> rotate_extrude(const Node& node, Children children, const Scope
     options.angle = angle;
     options.segments =
         std::max(static_cast<int>(csg::segments_of(radius, roundness) * std::fabs(angle) / 360), 1);
+    if (std::optional<Error> error = scope.too_fine(node, options.segments)) return *error;
     if (std::optional<Error> error =
             scope.too_large(node, corners_in(geometry.region) * (options.segments + 1)))
         return *error;
@@ -342,6 +345,15 @@ std::optional<Error> Scope::too_large(const Node& node, double vertices) const {
     return syntax.error_at(node.place,
                            std::string(node.name) + "(…) would have more than " +
                                std::to_string(options.most_vertices) + " vertices",
+                           ErrorCode::limit);
+}
+
+std::optional<Error> Scope::too_fine(const Node& node, int segments) const {
+    if (segments <= options.most_segments) return {};
+    return syntax.error_at(node.place,
+                           std::string(node.name) + "(…) would have more than " +
+                               grouped(static_cast<std::uint64_t>(options.most_segments)) +
+                               " corners all round; give it a smaller $fn",
                            ErrorCode::limit);
 }
 

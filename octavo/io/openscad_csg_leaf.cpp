@@ -52,6 +52,7 @@ Result<Geometry> sphere(const Node& node, const Scope& scope) {
     const int segments = csg::segments_of(r, p.roundness());
     if (p.error() || !(r > 0)) return nothing_of(node, scope, p, "its radius");
     if (!scope.faceted) return Geometry::of(csg::Expr(csg::Ball{r}));
+    if (std::optional<Error> error = scope.too_fine(node, segments)) return *error;
     if (std::optional<Error> error = scope.too_large(node, 0.5 * segments * segments)) return *error;
     return Geometry::of(convex(csg::faceted_ball(r, segments)));
 }
@@ -67,6 +68,7 @@ Result<Geometry> cylinder(const Node& node, const Scope& scope) {
     if (p.error() || csg::is_degenerate(frustum))
         return nothing_of(node, scope, p, "its height and one radius at least");
     if (!scope.faceted) return Geometry::of(csg::Expr(frustum));
+    if (std::optional<Error> error = scope.too_fine(node, segments)) return *error;
     return Geometry::of(convex(csg::faceted_frustum(frustum.low, frustum.high, bottom, top, segments)));
 }
 
@@ -89,7 +91,8 @@ Result<Geometry> polyhedron(const Node& node, const Scope& scope) {
         polygons.face_begin.push_back(static_cast<std::uint32_t>(polygons.contour_begin.size() - 1));
     }
     if (p.error()) return *p.error();
-    mesh::Mesh mesh = mesh::triangulate(polygons).mesh;
+    mesh::Mesh mesh = mesh::triangulate(polygons, scope.context).mesh;
+    if (scope.context.cancelled()) return Context::cancelled_error();
     mesh.sources.clear();
     if (mesh.triangles.empty()) return Geometry::none();
     if (!csg::is_closed(mesh)) {
@@ -124,6 +127,7 @@ Result<Geometry> circle(const Node& node, const Scope& scope) {
     const double r = radius(p, "r", "d", 1);
     const int segments = csg::segments_of(r, p.roundness());
     if (p.error() || !(r > 0)) return nothing_of(node, scope, p, "its radius");
+    if (std::optional<Error> error = scope.too_fine(node, segments)) return *error;
     return Geometry::of(csg::Region{{csg::circle(r, segments)}});
 }
 

@@ -87,10 +87,11 @@ Error no_facets() { return {ErrorCode::bad_input, "has no facets", {}}; }
 Error too_large() { return {ErrorCode::limit, "has more vertices or facets than 32 bits number", {}}; }
 
 /// Splits the faces into triangles and counts those that are no simple polygons.
-void triangulate(const FileMesh& file, ReadMesh& result) {
-    mesh::Triangulator triangulator;
+Status triangulate(const FileMesh& file, ReadMesh& result, const Context& context) {
+    mesh::Triangulator triangulator(context);
     std::size_t crossing = 0;
     for (std::size_t face = 0; face < file.faces.size(); ++face) {
+        if (context.cancelled()) return Context::cancelled_error();
         const std::span<const mesh::VertexIndex> corners = file.faces.corners(face);
         result.triangulated += corners.size() > 3;
         const mesh::Triangulation split = triangulator(file.vertices, corners);
@@ -102,9 +103,11 @@ void triangulate(const FileMesh& file, ReadMesh& result) {
     if (crossing > 0)
         result.warnings.push_back(std::to_string(crossing) +
                                   " polygons cross themselves; their triangles overlap");
+    if (context.cancelled()) return Context::cancelled_error();
+    return Done{};
 }
 
-Result<ReadMesh> to_mesh(Found found) {
+Result<ReadMesh> to_mesh(Found found, const Context& context) {
     FaceList& faces = found.file.faces;
     if (faces.size() == 0) return no_facets();
     ReadMesh result;
@@ -117,7 +120,7 @@ Result<ReadMesh> to_mesh(Found found) {
         result.mesh.triangles = std::move(faces.triangles());
     } else {
         if (faces.size() > most_indices) return too_large();
-        triangulate(found.file, result);
+        if (const Status cut = triangulate(found.file, result, context); !cut) return cut.error();
     }
     if (result.mesh.triangles.empty()) return no_facets();  // all were polygons without area
     if (result.mesh.triangles.size() > most_indices) return too_large();
@@ -150,7 +153,7 @@ Result<ReadPolygons> to_polygons(Found found) {
 Result<ReadMesh> read_mesh(const std::string& path, const ReadOptions& options, const Context& context) {
     Result<Found> found = find_mesh(path, options, context);
     if (!found) return std::move(found).error();
-    Result<ReadMesh> mesh = to_mesh(std::move(*found));
+    Result<ReadMesh> mesh = to_mesh(std::move(*found), context);
     if (!mesh) return in_file(std::move(mesh).error(), path);
     return mesh;
 }
@@ -158,7 +161,7 @@ Result<ReadMesh> read_mesh(const std::string& path, const ReadOptions& options, 
 Result<ReadMesh> read_mesh(Bytes bytes, const ReadOptions& options, const Context& context) {
     Result<Found> found = find_mesh(bytes, options, context);
     if (!found) return std::move(found).error();
-    return to_mesh(std::move(*found));
+    return to_mesh(std::move(*found), context);
 }
 
 Result<ReadPolygons> read_polygons(const std::string& path, const ReadOptions& options,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <octavo/mesh/corner_grid.hpp>
 #include <octavo/mesh/corner_ring.hpp>
 
 namespace octavo::mesh {
@@ -57,57 +58,12 @@ bool further_right(const CrossedEdge& a, const CrossedEdge& b) {
     return low > 0 || (low == 0 && high > 0);
 }
 
-/// The edge of the ring through `start` that the ray from `m` to the left meets first, among those that run
-/// downwards there (the inside is to their right); none when there is no such edge.
-CrossedEdge first_edge_left_of(const std::vector<RingCorner>& nodes, std::uint32_t start, Point2 m) {
-    CrossedEdge best;
-    std::uint32_t node = start;
-    do {
-        const Point2 from = nodes[node].position, to = nodes[nodes[node].next].position;
-        if (from.y >= m.y && to.y <= m.y && from.y != to.y && orient2d(to, from, m) <= 0) {
-            const CrossedEdge edge{node, to, from};
-            if (best.node == none || further_right(edge, best)) best = edge;
-        }
-        node = nodes[node].next;
-    } while (node != start);
-    return best;
-}
-
 /// Does the direction from the corner to `target` start inside the polygon (or along its boundary)?
 bool sees_locally(const std::vector<RingCorner>& nodes, std::uint32_t node, Point2 target) {
     const Point2 a = nodes[nodes[node].previous].position, b = nodes[node].position;
     const Point2 c = nodes[nodes[node].next].position;
     const bool left_of_in = orient2d(a, b, target) >= 0, left_of_out = orient2d(b, c, target) >= 0;
     return orient2d(a, b, c) > 0 ? left_of_in && left_of_out : left_of_in || left_of_out;
-}
-
-/// A corner of the ring through `start` that sees `m`, the leftmost point of a hole inside it.
-std::uint32_t visible_corner(const std::vector<RingCorner>& nodes, std::uint32_t start, Point2 m) {
-    const CrossedEdge edge = first_edge_left_of(nodes, start, m);
-    if (edge.node == none) return start;  // the hole is not inside: any bridge is as wrong as another
-    const std::uint32_t after = nodes[edge.node].next;
-    std::uint32_t best = nodes[edge.node].position.x < nodes[after].position.x ? edge.node : after;
-    // The bridge to the left end of that edge is clear unless corners stand in the triangle (m, hit, end);
-    // then the one at the least angle to the ray is seen. Which side of the ray the end is on says how to
-    // turn.
-    const Point2 end = nodes[best].position;
-    const int turn = end.y < m.y ? 1 : -1;
-    std::uint32_t node = start;
-    do {
-        const Point2 p = nodes[node].position;
-        const bool beside_ray = turn > 0 ? p.y <= m.y && p.y >= end.y : p.y >= m.y && p.y <= end.y;
-        if (beside_ray && p.x <= m.x && !(p == m && nodes[best].position == m) &&
-            orient2d(edge.low, edge.high, p) <= 0 && sees_locally(nodes, node, m)) {
-            const Point2 b = nodes[best].position;
-            const int side = turn * orient2d(m, b, p);
-            const bool nearer = side == 0 && std::fabs(p.x - m.x) + std::fabs(p.y - m.y) <
-                                                 std::fabs(b.x - m.x) + std::fabs(b.y - m.y);
-            const bool best_is_blind = p == b && !sees_locally(nodes, best, m);
-            if (side < 0 || nearer || best_is_blind) best = node;
-        }
-        node = nodes[node].next;
-    } while (node != start);
-    return best;
 }
 
 /// Splices the ring of `inner` into the ring of `outer` by a bridge between the two corners.
@@ -124,6 +80,137 @@ void bridge(std::vector<RingCorner>& nodes, std::uint32_t outer, std::uint32_t i
     nodes[outer_copy].previous = inner_copy;
 }
 
+/// The ring while holes are joined to it: its edges that run downwards by the rows of a table of heights, and its corners
+/// in a grid. Both only find what is then tested.
+class GrowingRing {
+  public:
+    GrowingRing(std::vector<RingCorner>& nodes, Contour outer)
+        : nodes_(nodes), start_(outer.begin), joined_(nodes.size()), next_copy_(nodes.size(), none) {
+        std::vector<CornerGrid::Entry> corners;
+        for (std::uint32_t i = 0; i < nodes.size(); ++i) corners.push_back({nodes[i].position, i});
+        grid_.build(corners);
+        make_rows();
+        join(outer);
+    }
+
+    void add(Contour hole) {
+        const std::uint32_t outer = visible_corner(nodes_[hole.least].position);
+        const auto copies = static_cast<std::uint32_t>(nodes_.size());
+        bridge(nodes_, outer, hole.least);
+        join(hole);
+        next_copy_.resize(nodes_.size(), none);
+        for (const auto& [copy, corner] : {std::pair{copies, outer}, std::pair{copies + 1, hole.least}}) {
+            next_copy_[copy] = next_copy_[corner];
+            next_copy_[corner] = copy;
+        }
+        for (const std::uint32_t node : {outer, hole.least, copies, copies + 1}) file_edge(node);
+    }
+
+  private:
+    struct Filed {
+        std::uint32_t node, next;
+    };
+
+    Point2 after(std::uint32_t node) const { return nodes_[nodes_[node].next].position; }
+    std::size_t row(double y) const {
+        return std::min(static_cast<std::size_t>(std::max((y - lowest_) * rows_per_y_, 0.0)),
+                        rows_.size() - 1);
+    }
+
+    /// As many rows as let an edge lie in eight of them on average.
+    void make_rows() {
+        double highest = -INFINITY, heights = 0;
+        lowest_ = INFINITY;
+        for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+            const double y = nodes_[node].position.y;
+            lowest_ = std::min(lowest_, y), highest = std::max(highest, y);
+            heights += std::fabs(after(node).y - y);
+        }
+        const auto count = static_cast<double>(nodes_.size());
+        const double height = highest - lowest_;
+        const double rows = heights > 0 ? std::clamp(7 * count * (height / heights), 1.0, count) : 1.0;
+        rows_.assign(static_cast<std::size_t>(rows), none);
+        rows_per_y_ = height > 0 ? std::floor(rows) / height : 0;
+    }
+
+    void join(Contour contour) {
+        for (std::uint32_t node = contour.begin; node < contour.end; ++node) {
+            joined_[node] = true;
+            file_edge(node);
+        }
+    }
+
+    /// Files the edge that starts at the node. What is filed of an edge that was there before leads to this one too,
+    /// which does no harm.
+    void file_edge(std::uint32_t node) {
+        const double from = nodes_[node].position.y, to = after(node).y;
+        if (!(from > to)) return;
+        for (std::size_t r = row(to), last = row(from); r <= last; ++r) {
+            filed_.push_back({node, rows_[r]});
+            rows_[r] = static_cast<std::uint32_t>(filed_.size() - 1);
+        }
+    }
+
+    /// The edge that the ray from `m` to the left meets first, among those that run downwards there (the inside is to
+    /// their right); none when there is no such edge.
+    CrossedEdge first_edge_left_of(Point2 m) const {
+        CrossedEdge best;
+        for (std::uint32_t at = rows_[row(m.y)]; at != none; at = filed_[at].next) {
+            const std::uint32_t node = filed_[at].node;
+            const Point2 from = nodes_[node].position, to = after(node);
+            if (from.y >= m.y && to.y <= m.y && from.y != to.y && orient2d(to, from, m) <= 0) {
+                const CrossedEdge edge{node, to, from};
+                if (best.node == none || further_right(edge, best)) best = edge;
+            }
+        }
+        return best;
+    }
+
+    std::uint32_t visible_corner(Point2 m) const;
+
+    std::vector<RingCorner>& nodes_;
+    std::uint32_t start_;
+    std::vector<bool> joined_;              ///< per corner of the input
+    std::vector<std::uint32_t> next_copy_;  ///< per node: another one of the same corner
+    CornerGrid grid_;                       ///< of the corners of the input
+    double lowest_ = 0, rows_per_y_ = 0;
+    std::vector<std::uint32_t> rows_;  ///< per row, the latest in filed_
+    std::vector<Filed> filed_;
+};
+
+/// A corner of the ring that sees `m`, the leftmost point of a hole inside it.
+std::uint32_t GrowingRing::visible_corner(Point2 m) const {
+    const CrossedEdge edge = first_edge_left_of(m);
+    if (edge.node == none) return start_;  // the hole is not inside: any bridge is as wrong as another
+    const std::uint32_t lower = nodes_[edge.node].next;
+    std::uint32_t best = nodes_[edge.node].position.x < nodes_[lower].position.x ? edge.node : lower;
+    // The bridge to the left end of that edge is clear unless corners stand in the triangle (m, hit, end);
+    // then the one at the least angle to the ray is seen. Which side of the ray the end is on says how to
+    // turn.
+    const Point2 end = nodes_[best].position;
+    const int turn = end.y < m.y ? 1 : -1;
+    const auto look_at = [&](std::uint32_t node) {
+        const Point2 p = nodes_[node].position;
+        const bool beside_ray = turn > 0 ? p.y <= m.y && p.y >= end.y : p.y >= m.y && p.y <= end.y;
+        if (!beside_ray || p.x > m.x || (p == m && nodes_[best].position == m) ||
+            orient2d(edge.low, edge.high, p) > 0 || !sees_locally(nodes_, node, m))
+            return;
+        const Point2 b = nodes_[best].position;
+        const int side = turn * orient2d(m, b, p);
+        const bool nearer = side == 0 && std::fabs(p.x - m.x) + std::fabs(p.y - m.y) <
+                                             std::fabs(b.x - m.x) + std::fabs(b.y - m.y);
+        const bool best_is_blind = p == b && !sees_locally(nodes_, best, m);
+        if (side < 0 || nearer || best_is_blind) best = node;
+    };
+    // The edge's end is the leftmost point of that triangle, so this one is no smaller.
+    grid_.any_near(m, {end.x, m.y}, end, [&](std::uint32_t corner) {
+        for (std::uint32_t node = corner; joined_[corner] && node != none; node = next_copy_[node])
+            look_at(node);
+        return false;
+    });
+    return best;
+}
+
 }  // namespace
 
 void build_ring(std::span<const Point2> positions, std::span<const std::uint32_t> contour_begin,
@@ -131,6 +218,7 @@ void build_ring(std::span<const Point2> positions, std::span<const std::uint32_t
     std::vector<RingCorner>& nodes = ring.nodes;
     nodes.resize(positions.size());
     for (std::uint32_t i = 0; i < positions.size(); ++i) nodes[i] = {positions[i], i, i, i};
+    Contour outer;
     std::vector<Contour> holes;
     for (std::size_t c = 0; c + 1 < contour_begin.size(); ++c) {
         Contour contour{contour_begin[c], contour_begin[c + 1], contour_begin[c]};
@@ -138,7 +226,10 @@ void build_ring(std::span<const Point2> positions, std::span<const std::uint32_t
         for (std::uint32_t i = contour.begin; i < contour.end; ++i)
             if (lexicographically_less(positions[i], positions[contour.least])) contour.least = i;
         link(nodes, contour, c > 0 && twice_area(positions, contour) > 0);
-        if (c > 0) holes.push_back(contour);
+        if (c > 0)
+            holes.push_back(contour);
+        else
+            outer = contour;
     }
     ring.start = contour_begin[0];
     // From left to right: the bridge to the left of a hole's leftmost corner can meet no hole that comes
@@ -147,8 +238,9 @@ void build_ring(std::span<const Point2> positions, std::span<const std::uint32_t
         const Point2 p = positions[a.least], q = positions[b.least];
         return p == q ? a.begin < b.begin : lexicographically_less(p, q);
     });
-    for (const Contour& hole : holes)
-        bridge(nodes, visible_corner(nodes, ring.start, positions[hole.least]), hole.least);
+    if (holes.empty()) return;
+    GrowingRing growing(nodes, outer);
+    for (const Contour& hole : holes) growing.add(hole);
 }
 
 }  // namespace octavo::mesh

@@ -98,7 +98,8 @@ PolygonShape Triangulator::clip_along(int axis, double normal_component, std::sp
         }
     }
     build_ring(projected_, contour_begin, ring_);
-    const EarClippingResult result = ears_.clip(ring_);
+    static const Context never_cancelled;
+    const EarClippingResult result = ears_.clip(ring_, context_ ? *context_ : never_cancelled);
     triangles_.assign(ears_.triangles().begin(), ears_.triangles().end());
     if (result.forced_triangles > 0) return PolygonShape::crossing;
     if (result.flat_triangles == 0) return PolygonShape::simple;
@@ -109,12 +110,12 @@ PolygonShape Triangulator::clip_along(int axis, double normal_component, std::sp
     return PolygonShape::simple;
 }
 
-TriangulatedMesh triangulate(const PolygonMesh& polygons) {
+TriangulatedMesh triangulate(const PolygonMesh& polygons, const Context& context) {
     TriangulatedMesh result;
     result.mesh.vertices = polygons.vertices;
-    Triangulator triangulator;
+    Triangulator triangulator(context);
     std::vector<std::uint32_t> contour_begin;
-    for (FaceIndex face = 0; face + 1 < polygons.face_begin.size(); ++face) {
+    for (FaceIndex face = 0; face + 1 < polygons.face_begin.size() && !context.cancelled(); ++face) {
         const std::uint32_t first = polygons.face_begin[face], last = polygons.face_begin[face + 1];
         OCTAVO_CHECK(first <= last && last < polygons.contour_begin.size(), "contour offsets must ascend");
         const std::uint32_t begin = polygons.contour_begin[first], end = polygons.contour_begin[last];

@@ -39,6 +39,11 @@ struct Triangulation {
 /// Triangulates one polygon after the other and keeps its memory. Not for use by two threads at once.
 class Triangulator {
   public:
+    Triangulator() = default;
+    /// Once `context`, which must outlive the triangulator, is cancelled, the triangles of a large polygon mean nothing:
+    /// ask it after each.
+    explicit Triangulator(const Context& context) : context_(&context) {}
+
     /// A polygon with one contour. Fewer than three corners give no triangle and `degenerate`.
     Triangulation operator()(std::span<const Vec3> vertices, std::span<const VertexIndex> corners);
 
@@ -53,6 +58,7 @@ class Triangulator {
     PolygonShape clip_along(int axis, double normal_component, std::span<const VertexIndex> corners,
                             std::span<const std::uint32_t> contour_begin);
 
+    const Context* context_ = nullptr;
     std::vector<Vec3> positions_;
     std::vector<Point2> projected_;
     CornerRing ring_;
@@ -65,7 +71,7 @@ struct TriangulatedMesh {
     std::vector<FaceIndex> degenerate, crossing;  ///< polygons of these shapes, ascending
 };
 
-/// Triangulates every face. Precondition: the offsets ascend and corners name vertices.
-TriangulatedMesh triangulate(const PolygonMesh& polygons);
+/// Triangulates every face. Precondition: the offsets ascend and corners name vertices. Cancelled, it stops with some.
+TriangulatedMesh triangulate(const PolygonMesh& polygons, const Context& context = {});
 
 }  // namespace octavo::mesh

@@ -18,6 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.most_nodes = 300;
     options.most_values = 3000;
     options.most_vertices = 3000;
+    options.most_segments = 100;
     const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
     const Result<io::CsgFile> file = io::read_csg_text(text, "/nonexistent", options);
     if (!file) {

@@ -304,13 +304,20 @@ TEST(OpenscadCsg, AbsurdSegmentCountsAreRefusedBeforeTheyAreBuilt) {
     for (const char* text :
          {"sphere(r = 1, $fn = 1000000);",
           "linear_extrude(height = 1, slices = 99999) { circle(1, $fn = 99999); }",
+          "cylinder($fn = 1e9, h = 1, r = 1);", "linear_extrude(height = 1) { circle($fn = 1e9, r = 1); }",
+          "linear_extrude(height = 1) { offset(r = 1, $fn = 1e9) { circle($fn = 10, r = 1); } }",
+          "rotate_extrude($fn = 1e9) { translate([2, 0, 0]) { circle(1, $fn = 8); } }",
           "rotate_extrude($fn = 99999) { translate([2, 0, 0]) { circle(1, $fn = 99999); } }"}) {
         const Result<CsgFile> file = read_csg_text(text, ".", facets());
         ASSERT_FALSE(file) << text;
         EXPECT_EQ(file.error().code, ErrorCode::limit) << text;
         EXPECT_EQ(file.error().place.line, 1U);
     }
-    EXPECT_TRUE(read_csg_text("sphere(r = 1, $fn = 1000000);"));  // a ball needs no segments
+    // Truly round things need no segments.
+    EXPECT_TRUE(read_csg_text("sphere(r = 1, $fn = 1e9);"));
+    EXPECT_TRUE(read_csg_text("cylinder(h = 1, r = 1, $fn = 1e9);"));
+    EXPECT_TRUE(read_csg_text("rotate_extrude($fn = 1e9) { translate([2, 0, 0]) { square(1); } }"));
+    EXPECT_TRUE(read_csg_text("cylinder(h = 1, r = 1, $fn = 5000);", ".", facets()));
 }
 
 TEST(OpenscadCsg, ImportsAreFoundBesideTheFile) {

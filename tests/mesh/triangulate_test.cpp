@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -336,7 +337,20 @@ TEST(Triangulate, DoesNotTakeQuadraticTime) {
         spiral.push_back({(0.5 + angle) * std::cos(angle), (0.5 + angle) * std::sin(angle)});
     }
     std::reverse(spiral.begin(), spiral.end());
-    for (const auto* contour : {&comb, &disc, &spiral}) {
+    // Spikes down to near the centre: triangles are long and thin, and blocked from afar.
+    std::vector<Point2D> spikes;
+    std::uniform_real_distribution<double> any_radius(0.01, 1);
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * i / n, r = any_radius(random);
+        spikes.push_back({r * std::cos(angle), r * std::sin(angle)});
+    }
+    // A rack at an angle, with gaps between its teeth that lie on one line.
+    std::vector<Point2D> rack{{3, -4}, {n * 4 + 3, n * 3 - 4}};
+    for (int i = n / 4; i-- > 0;)
+        for (const auto& [x, y] :
+             {Point2D{4.0 * i + 3, 0}, {4.0 * i + 3, 1e3}, {4.0 * i + 2, 1e3}, {4.0 * i + 2, 0}})
+            rack.push_back({4 * x - 3 * y, 3 * x + 4 * y});
+    for (const auto* contour : {&comb, &disc, &spiral, &spikes, &rack}) {
         Face face;
         face.add(*contour);
         Triangulator triangulator;
@@ -344,6 +358,53 @@ TEST(Triangulate, DoesNotTakeQuadraticTime) {
         EXPECT_EQ(result.shape, PolygonShape::simple);
         EXPECT_EQ(result.triangles.size(), face.corners.size() - 2);
     }
+}
+
+TEST(Triangulate, DoesNotTakeQuadraticTimeForManyHoles) {
+    constexpr int side = 150;
+    Face face;
+    face.add({{-1, -1}, {side, -1}, {side, side}, {-1, side}});
+    for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j)
+            face.add({{i + 0.0, j + 0.0}, {i + 0.0, j + 0.5}, {i + 0.5, j + 0.5}, {i + 0.5, j + 0.0}});
+    expect_proper(face);
+}
+
+TEST(Triangulate, DoesNotTakeQuadraticTimeForWhatIsNoPolygon) {
+    const int n = 100000;
+    std::vector<Point2D> there_and_back, garbage, twice;
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> anywhere(0, 1);
+    for (int i = 0; i < n; ++i) {
+        there_and_back.push_back({static_cast<double>(std::min(i, n - i)), 0});
+        garbage.push_back({anywhere(random), anywhere(random)});
+        const double angle = 2 * std::numbers::pi * (i / 2) / (n / 2);
+        twice.push_back({std::cos(angle), std::sin(angle)});
+    }
+    for (const auto& [contour, shape] : {std::pair{&there_and_back, PolygonShape::degenerate},
+                                         {&garbage, PolygonShape::crossing},
+                                         {&twice, PolygonShape::degenerate}}) {
+        Face face;
+        face.add(*contour);
+        Triangulator triangulator;
+        const Triangulation result = face.triangulated(triangulator);
+        EXPECT_EQ(result.shape, shape);
+        expect_edges_used_once(face, result.triangles);
+    }
+}
+
+TEST(Triangulate, StopsSoonWhenCancelled) {
+    Face face;
+    std::vector<Point2D> disc;
+    for (int i = 0; i < 100000; ++i) disc.push_back({std::cos(i * 6e-5), std::sin(i * 6e-5)});
+    face.add(disc);
+    std::atomic<bool> cancel{true};
+    Context context;
+    context.cancel = &cancel;
+    Triangulator triangulator(context);
+    EXPECT_LT(face.triangulated(triangulator).triangles.size(), 10000u);
+    cancel = false;
+    EXPECT_EQ(face.triangulated(triangulator).triangles.size(), disc.size() - 2);
 }
 
 TEST(Triangulate, MakesAClosedMeshOfAClosedPolygonMesh) {
