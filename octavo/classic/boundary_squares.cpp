@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include <octavo/base/grouped.hpp>
 #include <octavo/classic/boundary_squares.hpp>
 #include <octavo/octree/cell.hpp>
 
@@ -24,7 +25,7 @@ class Faces {
     }
 
   private:
-    static constexpr std::uint32_t leaf = 0xFFFFFFF0U;  // plus solid or not
+    static constexpr std::uint32_t leaf = most_unfolded_nodes;  // plus solid or not
     struct Place {
         std::uint32_t node;
         Cell cell;
@@ -95,7 +96,13 @@ class Faces {
 
 }  // namespace
 
-std::vector<BoundarySquare> boundary_squares(const octree::Octree& octree, std::array<bool, 3> solid) {
+Result<std::vector<BoundarySquare>> boundary_squares(const octree::Octree& octree,
+                                                     std::array<bool, 3> solid) {
+    if (octree.code().size() > most_unfolded_nodes)
+        return Error{ErrorCode::limit,
+                     "the octree has " + grouped(octree.code().size()) +
+                         " nodes, more than its boundary can be made of: " + grouped(most_unfolded_nodes),
+                     {}};
     return Faces(octree, solid).run();
 }
 

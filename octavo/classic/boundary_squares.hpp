@@ -18,7 +18,11 @@ struct BoundarySquare {
     bool faces_up = false;  ///< the outside is at greater coordinates
 };
 
+/// Nodes are unfolded to words of 32 bits, of which some are colours.
+constexpr std::uint64_t most_unfolded_nodes = 0xFFFFFFF0;
+
 /// `solid` says for each colour whether it counts. Outside the universe nothing does.
-std::vector<BoundarySquare> boundary_squares(const octree::Octree& octree, std::array<bool, 3> solid);
+/// Errors: limit beyond `most_unfolded_nodes`, which take 16 GB.
+Result<std::vector<BoundarySquare>> boundary_squares(const octree::Octree& octree, std::array<bool, 3> solid);
 
 }  // namespace octavo::classic

@@ -92,6 +92,13 @@ class Fans {
     std::vector<Index> parent_;
 };
 
+// Corners of squares, and then of polygons, are numbered by 32 bits.
+constexpr std::size_t most_corners = 0xFFFFFFF0U;
+
+Error too_many_corners() {
+    return {ErrorCode::limit, "the boundary has more vertices than 32-bit indices number", {}};
+}
+
 class Builder {
     static constexpr Index none = ~Index{0};
 
@@ -104,9 +111,9 @@ class Builder {
 
     Result<mesh::Mesh> run(const Context& context) {
         make_rings();
+        if (ring_.size() > most_corners) return too_many_corners();
         cut_touching_edges();
-        if (ring_.size() + squares_.size() > 0xFFFFFFF0U)
-            return Error{ErrorCode::limit, "the boundary has more vertices than 32-bit indices number", {}};
+        if (ring_.size() + squares_.size() > most_corners) return too_many_corners();
         if (context.cancelled()) return Context::cancelled_error();
         Fans fans(ring_.size());
         pair_sides(fans);
@@ -255,9 +262,11 @@ class Builder {
 Result<mesh::Mesh> to_mesh(const octree::Octree& octree, const ToMeshOptions& options,
                            const Context& context) {
     const bool gray = options.counted == CountedLeaves::black_and_gray;
-    std::vector<BoundarySquare> squares = boundary_squares(octree, {false, true, gray});
-    if (squares.empty()) return mesh::Mesh{};
-    return Builder(octree, std::move(squares)).run(context);
+    Result<std::vector<BoundarySquare>> squares = boundary_squares(octree, {false, true, gray});
+    if (!squares) return squares.error();
+    if (squares->empty()) return mesh::Mesh{};
+    if (squares->size() > most_corners / 4) return too_many_corners();
+    return Builder(octree, std::move(*squares)).run(context);
 }
 
 }  // namespace octavo::classic

@@ -97,6 +97,8 @@ std::string RepairReport::describe() const {
 }
 
 Result<Repaired> repair(const Mesh& mesh, const Context& context) {
+    if (const Status numbered = check_sides_can_be_numbered(mesh.triangles.size()); !numbered)
+        return numbered.error();
     Repaired result;
     RepairReport& report = result.report;
     RepairSoup soup;

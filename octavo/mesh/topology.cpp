@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <octavo/base/check.hpp>
+#include <octavo/base/grouped.hpp>
 #include <octavo/mesh/disjoint_sets.hpp>
 #include <octavo/mesh/topology.hpp>
 
@@ -59,8 +60,17 @@ Components number_labels(DisjointSets& sets, std::span<const std::uint32_t> memb
 
 }  // namespace
 
+Status check_sides_can_be_numbered(std::size_t triangles) {
+    if (triangles <= most_sided_triangles) return Done{};
+    return Error{ErrorCode::limit,
+                 "the mesh has " + grouped(triangles) + " facets, more than " +
+                     grouped(most_sided_triangles) + ", whose sides 32 bits can number",
+                 {}};
+}
+
 EdgeTable build_edges(std::span<const Triangle> triangles, std::size_t vertex_count) {
-    OCTAVO_CHECK(triangles.size() < no_index / 3, "the mesh has more facets than sides can be numbered");
+    OCTAVO_CHECK(triangles.size() <= most_sided_triangles,
+                 "the mesh has more facets than sides can be numbered");
     const SortedSides sorted = sort_sides(triangles, vertex_count);
     EdgeTable table;
     table.edge_of_side.assign(3 * triangles.size(), no_index);

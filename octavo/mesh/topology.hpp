@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <octavo/base/result.hpp>
 #include <octavo/mesh/mesh.hpp>
 
 // Who is next to whom: edges with their incident facets, components, and the fans of facets round a vertex.
@@ -38,7 +39,13 @@ struct EdgeTable {
     }
 };
 
-/// Precondition: fewer than 2^32 / 3 triangles, whose corners are smaller than `vertex_count`.
+/// Sides are numbered by 32 bits, and one number is none.
+inline constexpr std::size_t most_sided_triangles = no_index / 3 - 1;
+
+/// Whether the sides of so many triangles can be numbered. Errors: limit.
+Status check_sides_can_be_numbered(std::size_t triangles);
+
+/// Precondition: at most `most_sided_triangles`, whose corners are smaller than `vertex_count`.
 EdgeTable build_edges(std::span<const Triangle> triangles, std::size_t vertex_count);
 
 /// Does the side run from the lower to the higher vertex?

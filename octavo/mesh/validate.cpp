@@ -311,6 +311,8 @@ void Validation::conclude() {
 }  // namespace
 
 Result<Report> validate(const Mesh& mesh, const ValidateOptions& options, const Context& context) {
+    if (const Status numbered = check_sides_can_be_numbered(mesh.triangles.size()); !numbered)
+        return numbered.error();
     return Validation(mesh, options, context).run();
 }
 

@@ -27,7 +27,8 @@ struct ValidateOptions {
     bool topology_only = false;
 };
 
-/// Errors: bad_input when a facet's vertex is not finite, limit when the mesh does not fit a lattice, cancelled.
+/// Errors: bad_input when a facet's vertex is not finite, limit when the mesh does not fit a lattice or has
+/// more than `most_sided_triangles`, cancelled.
 /// Precondition: corners name vertices.
 Result<Report> validate(const Mesh& mesh, const ValidateOptions& options = {}, const Context& context = {});
 

@@ -7,11 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <octavo/classic/boundary_squares.hpp>
 #include <octavo/classic/csg_build.hpp>
 #include <octavo/classic/set_operations.hpp>
 #include <octavo/classic/to_mesh.hpp>
 
 #include "csg/random_solids.hpp"
+#include "effort.hpp"
 
 namespace octavo::classic {
 namespace {
@@ -116,6 +118,17 @@ TEST(ToMesh, RandomColoursTouchInEveryWayAndStayManifold) {
                                                  false),
                     volume_of(tree, false) / std::ldexp(1.0, 78), 1e-9);
     }
+}
+
+TEST(ToMesh, MoreNodesThanCanBeNumberedAreRefused) {
+    if (tests::effort() < 10) GTEST_SKIP() << "takes 1 GB; runs with OCTAVO_TEST_EFFORT=10";
+    const std::uint64_t nodes = most_unfolded_nodes + 8;
+    Result<octree::DfCode> code =
+        octree::DfCode::from_words(std::vector<std::uint64_t>((nodes + 31) / 32), nodes);
+    ASSERT_TRUE(code);
+    const Result<mesh::Mesh> mesh = to_mesh(octree::Octree(exact::Lattice{}, 21, std::move(*code)));
+    ASSERT_FALSE(mesh);
+    EXPECT_EQ(mesh.error().code, ErrorCode::limit);
 }
 
 TEST(ToMesh, OfNothingIsEmpty) { EXPECT_TRUE(to_mesh(octree::Octree())->triangles.empty()); }

@@ -72,6 +72,16 @@ std::set<std::set<std::size_t>> partition(const std::vector<Label>& labels) {
     return result;
 }
 
+TEST(EdgeTable, HasALimitThatIsSaid) {
+    EXPECT_TRUE(check_sides_can_be_numbered(most_sided_triangles));
+    EXPECT_LT(3 * most_sided_triangles + 2, std::size_t{no_index});
+    const Status refused = check_sides_can_be_numbered(most_sided_triangles + 1);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::limit);
+    EXPECT_TRUE(check_sides_can_be_numbered(std::size_t{1} << 30));
+    EXPECT_FALSE(check_sides_can_be_numbered((std::size_t{1} << 32) + 12)) << "32 bits of it would pass";
+}
+
 TEST(Components, AreThoseOfSpreadingLabels) {
     std::mt19937 random(2);
     for (int round = 0; round < 60; ++round) {
