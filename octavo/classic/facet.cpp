@@ -3,6 +3,7 @@
 #include <string>
 
 #include <octavo/classic/facet.hpp>
+#include <octavo/exact/orient.hpp>
 
 namespace octavo::classic {
 namespace {
@@ -48,6 +49,17 @@ Result<std::vector<Facet>> facets_of(const mesh::LatticeMesh& mesh) {
         if (!normal_of(facet).is_zero()) facets.push_back(facet);
     }
     return facets;
+}
+
+Status check_some_have_area(const mesh::LatticeMesh& mesh) {
+    const auto& [lattice, points, triangles] = mesh;
+    const auto is_flat = [&](const mesh::Triangle& t) {
+        return exact::collinear(points[t[0]], points[t[1]], points[t[2]]);
+    };
+    if (triangles.empty() || !std::all_of(triangles.begin(), triangles.end(), is_flat)) return Done{};
+    Error error{ErrorCode::not_a_solid, "the surface encloses nothing: none of its facets has any area", {}};
+    error.place.faces = {0};
+    return error;
 }
 
 }  // namespace octavo::classic

@@ -47,4 +47,8 @@ inline Normal normal_of(const Facet& facet) { return normal_of(facet.corner); }
 /// Errors: bad_input when a triangle names a vertex that is not there, or a point lies outside the universe.
 Result<std::vector<Facet>> facets_of(const mesh::LatticeMesh& mesh);
 
+/// A mesh of facets none of which has area bounds nothing: an octree of it would be white, and look like an answer.
+/// Errors: not_a_solid. A mesh without triangles passes. Precondition: triangles name points.
+Status check_some_have_area(const mesh::LatticeMesh& mesh);
+
 }  // namespace octavo::classic

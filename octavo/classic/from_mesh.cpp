@@ -91,6 +91,7 @@ Result<Built> build(const mesh::LatticeMesh& mesh, const BuildOptions& options, 
                      {}};
     Result<std::vector<Facet>> facets = facets_of(mesh);
     if (!facets) return facets.error();
+    if (const Status some = check_some_have_area(mesh); !some) return some.error();
 
     Built built;
     built.report.facets_without_area = mesh.triangles.size() - facets->size();

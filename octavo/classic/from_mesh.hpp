@@ -36,7 +36,7 @@ struct BuildOptions {
 };
 
 /// The classic octree of a snapped mesh.
-/// Errors: bad_input (indices, a depth out of range), not_a_solid (open, under OpenPolicy::reject), limit (more
+/// Errors: bad_input (indices, a depth out of range), not_a_solid (open, under OpenPolicy::reject; no facet has area), limit (more
 /// than `max_nodes`), cancelled.
 Result<Built> build(const mesh::LatticeMesh& mesh, const BuildOptions& options = {},
                     const Context& context = {});

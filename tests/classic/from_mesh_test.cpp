@@ -70,6 +70,10 @@ TEST(BuildFromMesh, ColorsEveryCellAsRationalRaysDoOnDegenerateOverlappingSolids
         tests::GridPoints points(seed, seed % 2 ? 13 : 1 << (seed / 2 % 4));
         const mesh::LatticeMesh bag = tests::random_bag(points);
         const Result<Built> built = build(bag, {.depth = 1 + static_cast<int>(seed % 3)}, with_threads(1));
+        if (facets_of(bag)->empty()) {
+            EXPECT_EQ(built.error().code, ErrorCode::not_a_solid) << "seed " << seed;
+            continue;
+        }
         ASSERT_TRUE(built) << built.error().describe();
         expect_colors_of_the_oracle(bag, built->octree, seed);
         const OctreeStats stats = built->octree.stats();
@@ -147,6 +151,23 @@ TEST(BuildFromMesh, RefusesOpenSurfacesByNameAndClosesThemOnRequest) {
     EXPECT_EQ(closed->octree, whole) << "a flat hole is closed flat";
     EXPECT_EQ(closed->report.closing_facets, 4u);
     EXPECT_EQ(closed->report.open_facets, refused.error().place.faces);
+}
+
+TEST(BuildFromMesh, RefusesAClosedSurfaceOfWhichNoFacetHasArea) {
+    mesh::Mesh needle;
+    needle.vertices = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+    needle.triangles = {{0, 1, 2}, {2, 1, 0}};
+    for (const OpenPolicy open : {OpenPolicy::reject, OpenPolicy::winding}) {
+        const Result<Built> refused = build(needle, {.open = open});
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::not_a_solid);
+        EXPECT_EQ(refused.error().place.faces, std::vector<std::uint32_t>{0});
+    }
+    mesh::LatticeMesh cube = tests::box({1000, 1000, 1000}, {60000000, 60000000, 60000000});
+    cube.triangles.push_back({0, 1, 1});
+    const Result<Built> built = build(cube, {.depth = 3});
+    ASSERT_TRUE(built);
+    EXPECT_EQ(built->report.facets_without_area, 1u);
 }
 
 TEST(BuildFromMesh, HandlesEmptyMeshesEveryDepthAndBadDepths) {
