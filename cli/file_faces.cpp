@@ -5,9 +5,10 @@
 
 namespace octavo::cli {
 
-std::vector<std::uint32_t> faces_of_file(std::vector<std::uint32_t> triangles, const io::ReadMesh& read) {
-    if (read.polygon_of_triangle.empty()) return triangles;
-    for (std::uint32_t& index : triangles) index = read.polygon_of_triangle[index];
+std::vector<std::uint32_t> faces_of_file(std::vector<std::uint32_t> triangles,
+                                         const std::vector<std::uint32_t>& polygon_of_triangle) {
+    if (polygon_of_triangle.empty()) return triangles;
+    for (std::uint32_t& index : triangles) index = polygon_of_triangle[index];
     std::sort(triangles.begin(), triangles.end());
     triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
     return triangles;
@@ -15,12 +16,14 @@ std::vector<std::uint32_t> faces_of_file(std::vector<std::uint32_t> triangles, c
 
 mesh::Report with_faces_of_file(mesh::Report report, const io::ReadMesh& read) {
     for (mesh::Problem& problem : report.problems)
-        problem.faces = faces_of_file(std::move(problem.faces), read);
+        problem.faces = faces_of_file(std::move(problem.faces), read.polygon_of_triangle);
     return report;
 }
 
-Error with_faces_of_file(Error error, const io::ReadMesh& read) {
-    error.place.faces = faces_of_file(std::move(error.place.faces), read);
+Error with_faces_of_file(Error error,
+                         const std::map<std::string, std::vector<std::uint32_t>>& polygon_of_triangle) {
+    if (const auto file = polygon_of_triangle.find(error.place.file); file != polygon_of_triangle.end())
+        error.place.faces = faces_of_file(std::move(error.place.faces), file->second);
     return error;
 }
 

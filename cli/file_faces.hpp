@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <octavo/io/read.hpp>
@@ -12,10 +14,15 @@
 
 namespace octavo::cli {
 
-/// The faces, ascending, each once, that these triangles of `read` are of.
-std::vector<std::uint32_t> faces_of_file(std::vector<std::uint32_t> triangles, const io::ReadMesh& read);
+/// The faces, ascending, each once, that these triangles are of; the triangles themselves when `polygon_of_triangle`
+/// is empty.
+std::vector<std::uint32_t> faces_of_file(std::vector<std::uint32_t> triangles,
+                                         const std::vector<std::uint32_t>& polygon_of_triangle);
 
 mesh::Report with_faces_of_file(mesh::Report report, const io::ReadMesh& read);
-Error with_faces_of_file(Error error, const io::ReadMesh& read);
+
+/// `polygon_of_triangle` by file.
+Error with_faces_of_file(Error error,
+                         const std::map<std::string, std::vector<std::uint32_t>>& polygon_of_triangle);
 
 }  // namespace octavo::cli

@@ -8,6 +8,7 @@
 
 #include <octavo/mesh/materials.hpp>
 
+#include "file_faces.hpp"
 #include "model.hpp"
 
 namespace octavo::cli {
@@ -135,14 +136,18 @@ void add_fit(Session& session, const hexmesh::FitReport& report, const mesh::Hex
         number_text(report.largest_distance_before));
 }
 
-void warn_about(Session& session, const hexmesh::Built& built, std::span<const std::string> names) {
+void warn_about(Session& session, const hexmesh::Built& built, std::span<const std::string> names,
+                std::span<const std::string> paths) {
     const hexmesh::Report& report = built.report;
     const std::vector<bool> has_cells = solids_with_cells(built.mesh, report.solids.size());
     for (std::size_t i = 0; i < report.solids.size(); ++i) {
         const hexmesh::SolidReport& solid = report.solids[i];
-        if (!solid.open_facets.empty())
+        if (!solid.open_facets.empty()) {
+            const std::vector<std::uint32_t> near =
+                faces_of_file({solid.open_facets.front()}, session.polygon_of_triangle[paths[i]]);
             session.warn(fmt::format("{}: the surface is open; its holes were closed, near facet {}",
-                                     names[i], solid.open_facets.front()));
+                                     names[i], near.front()));
+        }
         if (!has_cells[i])
             session.warn(fmt::format("{}: no cell of the mesh belongs to it; the cells are too large for it",
                                      names[i]));

@@ -27,6 +27,7 @@ void add_quality(Session& session, const hexmesh::Quality& quality);
 void add_fit(Session& session, const hexmesh::FitReport& report, const mesh::HexMesh& fitted);
 
 /// What the user should know before trusting the mesh.
-void warn_about(Session& session, const hexmesh::Built& built, std::span<const std::string> names);
+void warn_about(Session& session, const hexmesh::Built& built, std::span<const std::string> names,
+                std::span<const std::string> paths);
 
 }  // namespace octavo::cli

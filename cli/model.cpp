@@ -7,6 +7,7 @@
 #include <octavo/bp_octree/to_mesh.hpp>
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
+#include <octavo/classic/facet.hpp>
 #include <octavo/classic/to_mesh.hpp>
 #include <octavo/io/assimp_import.hpp>
 #include <octavo/io/format.hpp>
@@ -115,7 +116,9 @@ Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const s
     io::ReadOptions options;
     options.format = format;
     Result<io::ReadMesh> read = session.timed("read", [&] { return io::read_mesh(path, options, context); });
-    if (read) session.warn(read->warnings);
+    if (!read) return read;
+    session.warn(read->warnings);
+    if (!read->polygon_of_triangle.empty()) session.polygon_of_triangle[path] = read->polygon_of_triangle;
     return read;
 }
 
@@ -189,6 +192,8 @@ Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh) {
     Result<mesh::Snapped> snapped = session.timed("snap", [&] { return mesh::snap(mesh); });
     if (!snapped) return std::move(snapped).error();
     // Inside is where the surface winds about a point at least once: inside out, it winds minus once, or not at all.
+    if (!classic::check_some_have_area(snapped->mesh))
+        session.warn("none of the facets has any area, so nothing is inside");
     if (mesh::exact_volume6(snapped->mesh) < 0)
         session.warn(
             "the facets point inwards, so hardly anything counts as inside; octavo repair turns them over");
@@ -217,6 +222,18 @@ Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& conte
 
 Error in_file(Error error, const std::string& path) {
     if (error.place.file.empty()) error.place.file = path;
+    return error;
+}
+
+Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const std::string prefix = noun + " " + std::to_string(i);
+        if (error.sentence.starts_with(prefix + ": "))
+            error.sentence.erase(0, prefix.size() + 2);
+        else if (!error.sentence.starts_with(prefix + " "))
+            continue;
+        return in_file(std::move(error), paths[i]);
+    }
     return error;
 }
 

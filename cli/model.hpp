@@ -61,7 +61,7 @@ Result<io::WriteReport> write_mesh(Session& session, const Context& context, con
 Result<io::WriteReport> write_octree(Session& session, const Context& context, const std::string& path,
                                      const octree::Octree& tree, const std::string& format);
 
-/// Snaps a mesh to its own lattice. Warns when the surface is inside out.
+/// Snaps a mesh to its own lattice. Warns when the surface is inside out or has no area.
 Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh);
 
 /// Reads a surface and snaps it, or takes the triangles of a BP-octree, which are on a lattice already. Warns when
@@ -71,6 +71,9 @@ Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& conte
 
 /// The same error, with the file that it is about.
 Error in_file(Error error, const std::string& path);
+
+/// The same where the library knows its inputs by number: its sentence begins with "solid 3" or "operand 3".
+Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths);
 
 /// Three numbers for `--json`.
 inline Json json_of(Vec3 v) { return Json::array({v.x, v.y, v.z}); }

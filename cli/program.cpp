@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <span>
+#include <sstream>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
@@ -146,7 +147,11 @@ int Program::main(int argc, const char* const* argv) {
     try {
         app_->parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help and --version
-        return app_->exit(success);
+        std::ostringstream text;
+        app_->exit(success, text, text);
+        session_.options = {};
+        session_.text = text.str();
+        return session_.finish(ExitCode::ok);
     } catch (const CLI::ParseError& error) {
         session_.options.json = session_.options.json || names_json(argc, argv);
         for (const CLI::App* verb : app_->get_subcommands()) session_.command = verb->get_name();

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "file_faces.hpp"
+
 namespace octavo::cli {
 namespace {
 
@@ -64,6 +66,7 @@ void Session::add_timing(const std::string& phase, double seconds) {
 
 int Session::finish(Result<ExitCode> outcome) {
     if (bar_) bar_->clear();
+    if (!outcome) outcome = with_faces_of_file(outcome.error(), polygon_of_triangle);
     print_messages(outcome);
     if (options.json && !stdout_taken) {
         print_json(outcome);

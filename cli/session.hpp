@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -39,6 +41,10 @@ class Session {
     /// Name and inputs of the verb, for the JSON object.
     std::string command;
     std::vector<std::string> inputs;
+
+    /// For each mesh that was read and has polygons: the polygon of each of its triangles. The library numbers triangles;
+    /// an error whose place is in such a file is told with the faces of the file.
+    std::map<std::string, std::vector<std::uint32_t>> polygon_of_triangle;
 
     /// What scripts rely on: the keys of the verb's result.
     Json result = Json::object();

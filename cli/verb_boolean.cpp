@@ -91,7 +91,7 @@ Result<ExitCode> evaluate(Session& session, const BooleanOptions& options, Opera
     if (!operands) return std::move(operands).error();
     Result<boolean::Evaluated> evaluated =
         session.timed("evaluate", [&] { return operation(*operands, options.output.evaluation(), context); });
-    if (!evaluated) return std::move(evaluated).error();
+    if (!evaluated) return in_its_file(std::move(evaluated).error(), "operand", options.operands);
     return write_boolean(session, context, *evaluated, options.output.output, *format);
 }
 

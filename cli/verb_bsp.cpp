@@ -35,6 +35,7 @@ Result<bsp_octree::BspOctree> load(Session& session, const Context& context, con
         session.timed("build", [&] { return bsp_octree::build(read->mesh, options, context); });
     if (!built) return in_file(std::move(built).error(), arguments.input);
     session.warn(built->report.warnings);
+    if (built->octree.is_empty()) session.warn("the solid is empty");
     if (built->report.resolved)
         session.warn("the surface meets itself; the tree is that of where it winds about a point");
     return std::move(built->octree);

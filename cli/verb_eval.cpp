@@ -111,7 +111,7 @@ Result<ExitCode> eval(Session& session, const EvalOptions& options) {
     if (!format) return format.error();
     const Result<boolean::Evaluated> evaluated =
         evaluate_formula(session, context, options, *formula, *files);
-    if (!evaluated) return evaluated.error();
+    if (!evaluated) return in_its_file(evaluated.error(), "operand", *files);
     return write_boolean(session, context, *evaluated, options.output.output, *format);
 }
 

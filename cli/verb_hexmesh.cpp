@@ -116,18 +116,6 @@ std::vector<std::string> names_of(const std::vector<std::string>& inputs) {
     return names;
 }
 
-/// The error of a solid, with its file: the library knows it by its number.
-Error in_its_file(Error error, const std::vector<std::string>& inputs) {
-    if (inputs.size() == 1) return in_file(std::move(error), inputs[0]);
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const std::string prefix = "solid " + std::to_string(i) + ": ";
-        if (error.sentence.rfind(prefix, 0) != 0) continue;
-        error.sentence.erase(0, prefix.size());
-        return in_file(std::move(error), inputs[i]);
-    }
-    return error;
-}
-
 /// What is known of the cells besides the mesh: numbers that the user brings, and their quality where cells are no cubes.
 struct CellNumbers {
     std::vector<double> values, quality;
@@ -183,9 +171,12 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
         return options.conforming ? hexmesh::build_conforming(*solids, *meshing, context)
                                   : hexmesh::build(*solids, *meshing, context);
     });
-    if (!built) return in_its_file(std::move(built).error(), options.inputs);
+    if (!built) {
+        if (options.inputs.size() == 1) return in_file(std::move(built).error(), options.inputs[0]);
+        return in_its_file(std::move(built).error(), "solid", options.inputs);
+    }
     const std::vector<std::string> names = names_of(options.inputs);
-    warn_about(session, *built, names);
+    warn_about(session, *built, names, options.inputs);
     session.result = json_of(*built, names);
     session.text = text_of(*built, names);
     if (options.fit) {

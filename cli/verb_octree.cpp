@@ -8,7 +8,6 @@
 #include <octavo/classic/from_mesh.hpp>
 #include <octavo/octree/oct_format.hpp>
 
-#include "file_faces.hpp"
 #include "model.hpp"
 #include "octree_facts.hpp"
 #include "option_checks.hpp"
@@ -69,7 +68,7 @@ Result<Grown> grow_from_mesh(Session& session, const Context& context, const Oct
     }
     Result<classic::Built> built =
         session.timed("build", [&] { return classic::build(snapped->mesh, building, context); });
-    if (!built) return in_file(with_faces_of_file(std::move(built).error(), *read), options.input);
+    if (!built) return in_file(std::move(built).error(), options.input);
     warn_about(session, built->report);
     return Grown{std::move(built->octree), built->report.peak_nodes, built->report.primitive_tests,
                  snapped->report.largest_displacement};

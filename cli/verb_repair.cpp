@@ -24,7 +24,7 @@ Json steps_of(const mesh::RepairReport& report, const io::ReadMesh& read) {
     for (const mesh::RepairStep& step : report.steps)
         steps.push_back({{"kind", mesh::name_of(step.kind)},
                          {"count", step.count},
-                         {"faces", faces_of_file(step.faces, read)},
+                         {"faces", faces_of_file(step.faces, read.polygon_of_triangle)},
                          {"sentence", step.sentence}});
     return steps;
 }

@@ -161,8 +161,8 @@ TEST_F(Conventions, JsonIsOneObjectWithTheCommonKeysAlsoWhenItFails) {
 
 TEST_F(Conventions, WhatStdoutDidNotTakeIsToldHoweverLongItIs) {
     ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
-    for (const char* arguments :
-         {"check cube.off --json", "man", "completion bash", "shape knot -o - --to ply"}) {
+    for (const char* arguments : {"check cube.off --json", "man", "completion bash", "--help", "check --help",
+                                  "--version", "shape knot -o - --to ply"}) {
         const Ran ran = shell(std::string("$octavo ") + arguments + " > /dev/full");
         EXPECT_EQ(ran.exit_code, 3) << arguments;
         EXPECT_NE(ran.err, "") << arguments;

@@ -244,6 +244,70 @@ TEST_F(Verbs, OctreeRefusesAnOpenSurfaceNamingFacets) {
     EXPECT_EQ(octavo("octree open.off -o open.oct --open winding").exit_code, 0);
 }
 
+TEST_F(Verbs, WhatEnclosesNothingIsRefusedOrTold) {
+    write("needle.off", "OFF\n3 2 0\n0 0 0\n1 1 1\n2 2 2\n3 0 1 2\n3 2 1 0\n");
+    write("points.csv", "1,1,1\n");
+    ASSERT_EQ(octavo("shape cube -o cube.stl").exit_code, 0);
+    for (const char* arguments : {"octree needle.off", "hexmesh needle.off"}) {
+        const Ran ran = octavo(arguments);
+        EXPECT_EQ(ran.exit_code, 3) << arguments;
+        EXPECT_NE(ran.err.find("needle.off: the surface encloses nothing"), std::string::npos) << ran.err;
+    }
+    for (const char* arguments :
+         {"build needle.off", "contains needle.off points.csv", "distance needle.off points.csv"}) {
+        const Ran ran = octavo(arguments);
+        EXPECT_EQ(ran.exit_code, 0) << arguments;
+        EXPECT_NE(ran.err.find("none of the facets has any area"), std::string::npos) << ran.err;
+    }
+    EXPECT_NE(octavo("bsp needle.off").err.find("the solid is empty"), std::string::npos);
+    // A set operation leaves it out, and says so.
+    const Ran united = octavo("union cube.stl needle.off -o both.ply");
+    EXPECT_EQ(united.exit_code, 0) << united.err;
+    EXPECT_NE(united.err.find("2 facets have no area"), std::string::npos) << united.err;
+}
+
+// The bottom is a hexagon of four triangles, so that the sides have other numbers than their triangles.
+constexpr const char* open_prism = R"(OFF
+12 7 0
+2 0 0
+1 2 0
+-1 2 0
+-2 0 0
+-1 -2 0
+1 -2 0
+2 0 1
+1 2 1
+-1 2 1
+-2 0 1
+-1 -2 1
+1 -2 1
+6 5 4 3 2 1 0
+4 0 1 7 6
+4 1 2 8 7
+4 2 3 9 8
+4 3 4 10 9
+4 4 5 11 10
+4 5 0 6 11
+)";
+
+TEST_F(Verbs, ErrorsNameTheFacesOfTheFileAndNotTriangles) {
+    write("prism.off", open_prism);
+    write("points.csv", "0,0,0.5\n");
+    ASSERT_EQ(octavo("shape cube -o cube.stl").exit_code, 0);
+    for (const char* arguments :
+         {"octree prism.off", "hexmesh prism.off", "hexmesh cube.stl prism.off", "bsp prism.off",
+          "contains prism.off points.csv", "distance prism.off points.csv",
+          "union cube.stl prism.off -o out.ply", "eval 'a - b' a=cube.stl b=prism.off -o out.ply"}) {
+        const Ran ran = octavo(std::string(arguments) + " --json");
+        EXPECT_EQ(ran.exit_code, 3) << arguments;
+        const json error = ran.json()["error"];
+        EXPECT_EQ(error["file"], "prism.off") << arguments;
+        EXPECT_EQ(error["faces"], json::array({1, 2, 3, 4, 5, 6})) << arguments << ran.out;
+    }
+    const Ran closed = octavo("hexmesh prism.off --open winding");
+    EXPECT_NE(closed.err.find("near facet 1"), std::string::npos) << closed.err;
+}
+
 TEST_F(Verbs, ContainsAnswersInOnAndOut) {
     ASSERT_EQ(octavo("shape cube --size 2 -o cube.stl").exit_code, 0);
     write("points.csv",
