@@ -52,11 +52,11 @@ Result<std::vector<Facet>> facets_of(const mesh::LatticeMesh& mesh) {
 }
 
 Status check_some_have_area(const mesh::LatticeMesh& mesh) {
-    const auto& [lattice, points, triangles] = mesh;
     const auto is_flat = [&](const mesh::Triangle& t) {
-        return exact::collinear(points[t[0]], points[t[1]], points[t[2]]);
+        return exact::collinear(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     };
-    if (triangles.empty() || !std::all_of(triangles.begin(), triangles.end(), is_flat)) return Done{};
+    if (mesh.triangles.empty() || !std::all_of(mesh.triangles.begin(), mesh.triangles.end(), is_flat))
+        return Done{};
     Error error{ErrorCode::not_a_solid, "the surface encloses nothing: none of its facets has any area", {}};
     error.place.faces = {0};
     return error;
