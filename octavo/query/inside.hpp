@@ -42,7 +42,8 @@ enum class Side : std::int8_t {
 struct InsideOptions {
     classic::OpenPolicy open = classic::OpenPolicy::reject;
     /// Cells with at most this many facets are not split further, nor those with up to four times as many that all
-    /// share a corner. Measured: with 4 a query near the surface of a scan
+    /// share a corner, nor those with up to sixteen times as many of which all but `leaf_facets` are slivers far longer
+    /// than the cell. Measured: with 4 a query near the surface of a scan
     /// costs least; 2 doubles the memory for a few per cent, 8 costs a third more time.
     int leaf_facets = 4;
     /// The deepest level, at most 21. Around a vertex with more facets than `leaf_facets` splitting would not end.

@@ -11,6 +11,7 @@
 #include <models.hpp>
 
 #include <octavo/io/read.hpp>
+#include <octavo/mesh/shapes.hpp>
 #include <octavo/mesh/snap.hpp>
 #include <octavo/query/inside.hpp>
 
@@ -176,6 +177,16 @@ TEST(InsideQuery, AgreesWithRationalRaysOnSpheres) {
     const std::size_t count = 1000u * static_cast<std::size_t>(tests::effort());
     const Tally tally = expect_answers_of_the_oracle(spheres, telling_points(spheres, count, 1), 100);
     EXPECT_GT(std::min({tally.inside, tally.on, tally.outside}), count / 10);
+}
+
+TEST(InsideQuery, AnswersForFansOfSliversWithoutCuttingThemSmall) {
+    // 4 000 sides: caps are fans of slivers, sides are strips of them.
+    const auto snapped = mesh::snap(mesh::cylinder(1, 1, 4000));
+    ASSERT_TRUE(snapped);
+    expect_answers_of_the_oracle(snapped->mesh, telling_points(snapped->mesh, 60, 71), 60);
+    const Result<InsideQuery> query = InsideQuery::build(snapped->mesh);
+    ASSERT_TRUE(query);
+    EXPECT_LT(query->memory_bytes(), 1000 * snapped->mesh.triangles.size());
 }
 
 TEST(InsideQuery, SeesTheSmallestDoublesBesideAFacet) {
