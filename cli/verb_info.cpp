@@ -31,6 +31,10 @@ struct InfoOptions {
     std::string input, format;
 };
 
+/// How a surface can meet itself, under the names and with the counts of `check`.
+constexpr std::array<mesh::ProblemKind, 3> contacts{
+    mesh::ProblemKind::self_intersections, mesh::ProblemKind::penetrations, mesh::ProblemKind::overlaps};
+
 /// What info tells about a mesh, gathered.
 struct Facts {
     const io::ReadMesh& read;
@@ -39,16 +43,12 @@ struct Facts {
     bool on_lattice = true;              ///< else what needs the lattice is not known
     std::optional<double> solid_volume;  ///< of the space of positive winding number; not of open surfaces
 
-    std::uint64_t self_intersections() const {
-        return report.count(mesh::ProblemKind::self_intersections) +
-               report.count(mesh::ProblemKind::penetrations) + report.count(mesh::ProblemKind::overlaps);
-    }
+    bool is_open() const { return report.facets == 0 || report.count(mesh::ProblemKind::open_edges) > 0; }
     /// Has every point a winding number?
-    bool bounds_space() const {
-        return report.facets > 0 && report.oriented && report.count(mesh::ProblemKind::open_edges) == 0;
-    }
+    bool bounds_space() const { return !is_open() && report.oriented; }
     bool may_wind_twice() const {
-        return self_intersections() > 0 || report.nested_bodies > 0 ||
+        const auto meets = [&](mesh::ProblemKind kind) { return report.count(kind) > 0; };
+        return std::any_of(contacts.begin(), contacts.end(), meets) || report.nested_bodies > 0 ||
                report.count(mesh::ProblemKind::duplicate_facets) > 0 ||
                report.count(mesh::ProblemKind::inside_out_shells) > 0;
     }
@@ -66,6 +66,23 @@ Result<mesh::Report> validate(Session& session, const Context& context, const me
     return mesh::validate(mesh, options, context);
 }
 
+/// Measures are double numbers, which coordinates near 1e300 exceed when they are multiplied.
+void warn_of_overflow(Session& session, const mesh::Measures& measures) {
+    const auto is_finite_row = [](const auto& row) {
+        return std::all_of(row.begin(), row.end(), [](double entry) { return std::isfinite(entry); });
+    };
+    std::vector<std::string> names;
+    if (!std::isfinite(measures.volume)) names.emplace_back("the volume");
+    if (!std::isfinite(measures.area)) names.emplace_back("the area");
+    if (!is_finite(measures.centroid)) names.emplace_back("the centroid");
+    if (!std::all_of(measures.inertia.begin(), measures.inertia.end(), is_finite_row))
+        names.emplace_back("the inertia");
+    std::string list;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+    if (!names.empty()) session.warn("too large for double numbers: " + list);
+}
+
 Result<Facts> gather(Session& session, const Context& context, const io::ReadMesh& read) {
     bool on_lattice = true;
     Result<mesh::Report> report =
@@ -75,6 +92,7 @@ Result<Facts> gather(Session& session, const Context& context, const io::ReadMes
     const mesh::Mesh welded = session.timed("weld", [&] { return mesh::weld(read.mesh); });
     Facts facts{read, std::move(*report), {}, on_lattice, {}};
     facts.measures = session.timed("measure", [&] { return mesh::measure(welded); });
+    warn_of_overflow(session, facts.measures);
     if (!on_lattice || !facts.bounds_space()) return facts;
     facts.solid_volume = facts.measures.volume;
     if (!facts.may_wind_twice()) return facts;
@@ -91,6 +109,9 @@ Json result_of(const Facts& facts) {
     const mesh::Measures& m = facts.measures;
     Json inertia = Json::array();
     for (const auto& row : m.inertia) inertia.push_back(row);
+    const auto count = [&](mesh::ProblemKind kind) {
+        return facts.on_lattice ? Json(facts.report.count(kind)) : Json();
+    };
     Json json = {{"format", facts.read.format},
                  {"vertices", facts.report.vertices},
                  {"triangles", facts.report.facets},
@@ -98,7 +119,9 @@ Json result_of(const Facts& facts) {
                  {"closed", facts.report.closed},
                  {"oriented", facts.report.oriented},
                  {"manifold", facts.report.manifold},
-                 {"self_intersections", facts.on_lattice ? Json(facts.self_intersections()) : Json()},
+                 {"self_intersections", count(mesh::ProblemKind::self_intersections)},
+                 {"penetrations", count(mesh::ProblemKind::penetrations)},
+                 {"overlaps", count(mesh::ProblemKind::overlaps)},
                  {"volume", m.volume},
                  {"solid_volume", facts.solid_volume ? Json(*facts.solid_volume) : Json()},
                  {"area", m.area},
@@ -138,13 +161,27 @@ std::string bounds_text(const Box3& bounds) {
 std::string volume_text(const Facts& facts) {
     const double volume = facts.measures.volume;
     if (!facts.bounds_space())
-        return line("volume", number_text(volume) + " (of an open surface: means nothing)");
+        return line("volume", fmt::format("{} (of an {} surface: means nothing)", number_text(volume),
+                                          facts.is_open() ? "open" : "inconsistently oriented"));
     // The union rounds the points that it constructs.
     const bool agrees = facts.solid_volume && std::fabs(*facts.solid_volume - volume) <= 1e-9 * volume;
     if (!facts.may_wind_twice() || agrees) return line("volume", number_text(volume));
     std::string text =
         line("volume", number_text(volume) + " (space counts as often as the surface winds round it)");
     if (facts.solid_volume) text += line("volume of solid", number_text(*facts.solid_volume));
+    return text;
+}
+
+/// Crossings always, the rarer kinds only where there are some.
+std::string contacts_text(const Facts& facts) {
+    if (!facts.on_lattice) return line("self-intersections", "not known");
+    std::string text;
+    for (const mesh::ProblemKind kind : contacts) {
+        const std::uint64_t count = facts.report.count(kind);
+        std::string name(mesh::name_of(kind));
+        std::replace(name.begin(), name.end(), '_', '-');
+        if (count > 0 || kind == mesh::ProblemKind::self_intersections) text += line(name, grouped(count));
+    }
     return text;
 }
 
@@ -158,7 +195,7 @@ std::string text_of(const Facts& facts, const std::string& name) {
     text += line("components", grouped(facts.report.merged_components));
     text += line("closed", yes_or_no(facts.report.closed));
     text += line("oriented", yes_or_no(facts.report.oriented));
-    text += line("self-intersections", facts.on_lattice ? grouped(facts.self_intersections()) : "not known");
+    text += contacts_text(facts);
     text += line("Euler number",
                  fmt::format("{}{}", m.euler_number, m.genus ? fmt::format(" (genus {})", *m.genus) : ""));
     text += volume_text(facts);
@@ -227,7 +264,8 @@ void add_info(Program& program) {
                      [options](Session& session) { return info(session, *options); });
     verb->add_option(
             "FILE", options->input,
-            "A mesh (- is stdin), a CSG tree (.csg; its polyhedron is measured), or an octree (.oct)")
+            "A mesh, a CSG tree (.csg; its polyhedron is measured), or an octree (.oct, .bpo or .bso); - "
+            "is stdin")
         ->required()
         ->type_name("FILE");
     verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")

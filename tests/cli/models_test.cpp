@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <map>
 
 #include "cli/program.hpp"
 
@@ -77,6 +78,34 @@ TEST_F(Models, AnOpenSurfaceHasNoVolumeOfTheSolid) {
     EXPECT_NE(octavo("info open.off").out.find("open surface"), std::string::npos);
 }
 
+TEST_F(Models, AClosedSurfaceThatIsNotOrientedIsNotCalledOpen) {
+    // A tetrahedron with its last facet turned over.
+    write("turned.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 2 3\n");
+    const json result = octavo("info turned.off --json").json()["result"];
+    EXPECT_EQ(result["closed"], true);
+    EXPECT_EQ(result["oriented"], false);
+    EXPECT_TRUE(result["solid_volume"].is_null());
+    const std::string text = octavo("info turned.off").out;
+    EXPECT_NE(text.find("(of an inconsistently oriented surface: means nothing)"), std::string::npos) << text;
+}
+
+TEST_F(Models, InfoAndCheckCountContactsUnderTheSameNames) {
+    write("same.off", two_cubes(0));
+    write("shifted.off", two_cubes(1));
+    write("apart.off", two_cubes(3));
+    for (const char* file : {"same.off", "shifted.off", "apart.off"}) {
+        std::map<std::string, std::uint64_t> counts;
+        const json report = octavo(std::string("check --json ") + file).json()["result"];
+        for (const json& problem : report["problems"]) counts[problem["kind"]] = problem["count"];
+        const json facts = octavo(std::string("info --json ") + file).json()["result"];
+        for (const char* kind : {"self_intersections", "penetrations", "overlaps"})
+            EXPECT_EQ(facts[kind], counts[kind]) << file << " " << kind;
+    }
+    const std::string text = octavo("info shifted.off").out;
+    EXPECT_NE(text.find("  overlaps "), std::string::npos) << text;
+    EXPECT_EQ(octavo("info apart.off").out.find("  overlaps "), std::string::npos);
+}
+
 TEST_F(Models, DoubleSheetsBoundNoSolid) {
     write("sheet.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n");
     // A prism so thin that the lattice makes a double sheet of it.
@@ -98,7 +127,10 @@ TEST_F(Models, InfoCountsWhatNoLatticeHolds) {
     EXPECT_EQ(ran.json()["result"]["triangles"], 4);
     EXPECT_EQ(ran.json()["result"]["closed"], true);
     EXPECT_TRUE(ran.json()["result"]["self_intersections"].is_null());
-    EXPECT_EQ(ran.json()["warnings"].size(), 1U);
+    ASSERT_EQ(ran.json()["warnings"].size(), 2U);
+    EXPECT_EQ(ran.json()["warnings"][1],
+              "too large for double numbers: the volume, the area and the inertia");
+    EXPECT_TRUE(ran.json()["result"]["volume"].is_null());
     EXPECT_NE(octavo("octree huge.off").err.find("5e278"), std::string::npos);
 }
 
