@@ -37,7 +37,8 @@ Json json_of(const bp_octree::BpOctree& tree, std::span<const std::uint64_t> byt
         if (has_percentage(tree)) level["volume_percent"] = percentage(tree, figures.volume);
         levels.push_back(std::move(level));
     }
-    return {{"levels", levels},
+    return {{"format", "bpo"},
+            {"levels", levels},
             {"leaves", leaves},
             {"planes", tree.planes.size()},
             {"bytes", file_bytes},

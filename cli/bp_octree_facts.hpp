@@ -11,7 +11,7 @@
 
 namespace octavo::cli {
 
-/// depth, levels with their planes, volumes and bytes, leaves, planes, triangles, volume, bytes and closed.
+/// format ("bpo"), depth, levels with their planes, volumes and bytes, leaves, planes, triangles, volume, bytes and closed.
 /// `bytes_to_level` as in bpo_format.hpp, empty when there is no file.
 Json json_of(const bp_octree::BpOctree& tree, std::span<const std::uint64_t> bytes_to_level,
              std::uint64_t file_bytes);

@@ -10,7 +10,8 @@ namespace octavo::cli {
 void tell(Session& session, const bsp_octree::BspOctree& octree, std::uint64_t bytes) {
     const bsp_octree::Stats stats = octree.stats();
     const std::uint64_t leaves = stats.white + stats.black + stats.bsp_leaves;
-    session.result = {{"leaves", leaves},
+    session.result = {{"format", "bso"},
+                      {"leaves", leaves},
                       {"white", stats.white},
                       {"black", stats.black},
                       {"bsp_leaves", stats.bsp_leaves},

@@ -6,15 +6,18 @@
 #include <octavo/boolean/expression.hpp>
 #include <octavo/bp_octree/to_mesh.hpp>
 #include <octavo/bsp_octree/bso_file.hpp>
+#include <octavo/bsp_octree/bso_format.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/classic/facet.hpp>
 #include <octavo/classic/to_mesh.hpp>
 #include <octavo/io/assimp_import.hpp>
 #include <octavo/io/format.hpp>
 #include <octavo/io/hyper_tree_grid.hpp>
+#include <octavo/io/input.hpp>
 #include <octavo/io/oct.hpp>
 #include <octavo/io/vtu.hpp>
 #include <octavo/mesh/measure.hpp>
+#include <octavo/octree/oct_format.hpp>
 
 namespace octavo::cli {
 namespace {
@@ -79,9 +82,20 @@ Result<io::ReadMesh> faces_of_bsp_octree(Session& session, const Context& contex
     return read;
 }
 
+ModelKind kind_on_stdin() {
+    const Bytes begin = io::beginning_of_stdin();
+    const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(begin.data()),
+                                              begin.size());
+    if (octree::looks_like_oct(bytes)) return ModelKind::octree;
+    if (bp_octree::looks_like_bpo(bytes)) return ModelKind::bp_octree;
+    if (bsp_octree::looks_like_bso(bytes)) return ModelKind::bsp_octree;
+    return ModelKind::mesh;
+}
+
 }  // namespace
 
 ModelKind kind_of(const std::string& path, const std::string& format) {
+    if (path == "-" && format.empty()) return kind_on_stdin();
     const std::string extension = io::extension_of(format.empty() ? path : "." + format);
     if (extension == "csg") return ModelKind::csg;
     if (extension == "oct") return ModelKind::octree;
@@ -150,10 +164,12 @@ Result<io::CsgFile> read_csg(Session& session, const Context& context, const std
 Result<octree::Octree> read_octree(Session& session, const Context& context, const std::string& path,
                                    const std::string& format) {
     session.inputs.push_back(path);
-    if (path != "-" && kind_of(path, format) != ModelKind::octree && !io::extension_of(path).empty())
-        return unsupported(path,
-                           "is no octree (.oct or .bpo); octavo octree and octavo build make them, octavo "
-                           "info tells about meshes");
+    if (path != "-" && kind_of(path, format) != ModelKind::octree &&
+        !(format.empty() && io::extension_of(path).empty()))
+        return unsupported(
+            path,
+            "is no octree (.oct, .bpo or .bso); octavo octree and octavo build make them, octavo "
+            "info tells about meshes");
     return session.timed("read", [&] { return io::read_octree(path, context); });
 }
 

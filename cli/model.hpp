@@ -20,9 +20,11 @@
 
 namespace octavo::cli {
 
-/// What a file's extension says it is, as far as verbs care.
+/// What a file is, as far as verbs care.
 enum class ModelKind { mesh, csg, octree, bp_octree, bsp_octree };
 
+/// By the format where one is given, else by the path's extension; octrees of each kind on standard input ("-") by
+/// their first bytes, for which this waits.
 ModelKind kind_of(const std::string& path, const std::string& format);
 
 /// For an option that names the format of a model instead of its extension.

@@ -5,6 +5,7 @@
 
 #include <octavo/boolean/expression.hpp>
 #include <octavo/boolean/formula.hpp>
+#include <octavo/io/format.hpp>
 #include <octavo/io/openscad_csg.hpp>
 
 #include "boolean_facts.hpp"
@@ -24,7 +25,7 @@ struct EvalOptions {
     BooleanOutput output;
 };
 
-bool is_csg(const std::string& expression) { return kind_of(expression, "") == ModelKind::csg; }
+bool is_csg(const std::string& expression) { return io::extension_of(expression) == "csg"; }
 
 std::string check_expression(const std::string& text) {
     if (is_csg(text)) return "";

@@ -14,6 +14,10 @@
 namespace octavo::cli {
 namespace {
 
+struct StatsOptions {
+    std::string input, format;
+};
+
 Result<ExitCode> bp_octree_stats(Session& session, const Context& context, const std::string& input) {
     bp_octree::ReadBpoOptions reading;
     reading.partial = bp_octree::ReadBpoOptions::Partial::accept;
@@ -33,11 +37,12 @@ Result<ExitCode> bsp_octree_stats(Session& session, const Context& context, cons
     return ExitCode::ok;
 }
 
-Result<ExitCode> stats(Session& session, const std::string& input) {
+Result<ExitCode> stats(Session& session, const StatsOptions& options) {
     const Context context = session.context();
-    if (kind_of(input, "") == ModelKind::bp_octree) return bp_octree_stats(session, context, input);
-    if (kind_of(input, "") == ModelKind::bsp_octree) return bsp_octree_stats(session, context, input);
-    Result<octree::Octree> tree = read_octree(session, context, input);
+    const ModelKind kind = kind_of(options.input, options.format);
+    if (kind == ModelKind::bp_octree) return bp_octree_stats(session, context, options.input);
+    if (kind == ModelKind::bsp_octree) return bsp_octree_stats(session, context, options.input);
+    Result<octree::Octree> tree = read_octree(session, context, options.input, options.format);
     if (!tree) return std::move(tree).error();
     const TreeFile file{"oct", octree::encode(*tree).size()};
     session.result = json_of(*tree, file);
@@ -48,13 +53,15 @@ Result<ExitCode> stats(Session& session, const std::string& input) {
 }  // namespace
 
 void add_stats(Program& program) {
-    const auto input = std::make_shared<std::string>();
+    const auto options = std::make_shared<StatsOptions>();
     Verb* verb = program.verb("stats", "Trees", "Tell what is inside an octree file",
-                              [input](Session& session) { return stats(session, *input); });
-    verb->add_option("FILE", *input,
-                     "An octree (.oct; - is stdin), a BP-octree (.bpo) or a BSP-octree (.bso)")
+                              [options](Session& session) { return stats(session, *options); });
+    verb->add_option("FILE", options->input,
+                     "An octree (.oct), a BP-octree (.bpo) or a BSP-octree (.bso); - is stdin")
         ->required()
         ->type_name("FILE");
+    take_one_of(verb->add_option("--format", options->format, "Format of FILE, instead of by its extension"),
+                {"oct", "bpo", "bso"});
 }
 
 }  // namespace octavo::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <new>
@@ -20,10 +21,24 @@ Error system_error(const char* what) {
     return {ErrorCode::io, std::string(what) + ": " + std::strerror(errno), {}};
 }
 
-/// Reads until the end; `expected` is a guess of the size that need not be right (pipes say 0).
-Result<ByteBlock> read_all(int descriptor, std::size_t expected, const Context& context) {
-    ByteBlock block(expected + 1);
-    std::size_t filled = 0;
+/// What was read of standard input, which cannot be put back into a pipe.
+struct Beginning {
+    std::array<std::byte, 8> bytes;
+    std::size_t size = 0;
+    bool is_read = false, is_delivered = false;
+};
+
+Beginning& stdin_beginning() {
+    static Beginning beginning;
+    return beginning;
+}
+
+/// Reads until the end; `expected` is a guess of the size that need not be right (pipes say 0). The block begins with
+/// `begin`, bytes that were read before.
+Result<ByteBlock> read_all(int descriptor, std::size_t expected, const Context& context, Bytes begin = {}) {
+    ByteBlock block(begin.size() + expected + 1);
+    std::copy(begin.begin(), begin.end(), block.data());
+    std::size_t filled = begin.size();
     for (;;) {
         if (context.cancelled()) return Context::cancelled_error();
         if (filled == block.size()) {
@@ -50,8 +65,15 @@ struct Descriptor {
     }
 };
 
+Result<ByteBlock> read_stdin(const Context& context) {
+    Beginning& beginning = stdin_beginning();
+    if (beginning.is_delivered) return read_all(STDIN_FILENO, 0, context);
+    beginning.is_delivered = true;
+    return read_all(STDIN_FILENO, 0, context, Bytes(beginning.bytes.data(), beginning.size));
+}
+
 Result<ByteBlock> read_file(const std::string& path, const Context& context) {
-    if (path == "-") return read_all(STDIN_FILENO, 0, context);
+    if (path == "-") return read_stdin(context);
 
     const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     struct stat status {};
@@ -63,6 +85,20 @@ Result<ByteBlock> read_file(const std::string& path, const Context& context) {
 }
 
 }  // namespace
+
+Bytes beginning_of_stdin() {
+    Beginning& beginning = stdin_beginning();
+    while (!beginning.is_read && !beginning.is_delivered && beginning.size < beginning.bytes.size()) {
+        const ssize_t got = ::read(STDIN_FILENO, beginning.bytes.data() + beginning.size,
+                                   beginning.bytes.size() - beginning.size);
+        if (got < 0 && errno == EINTR) continue;
+        // An error is told to who reads the rest.
+        if (got <= 0) break;
+        beginning.size += static_cast<std::size_t>(got);
+    }
+    beginning.is_read = true;
+    return {beginning.bytes.data(), beginning.size};
+}
 
 Result<ByteBlock> read_bytes(const std::string& path, const Context& context) try {
     Result<ByteBlock> result = read_file(path, context);

@@ -30,6 +30,10 @@ class ByteBlock {
     std::size_t size_ = 0;
 };
 
+/// The first bytes of standard input, at most eight, as many as tell formats apart; fewer when it ends before. They are not
+/// lost: who reads "-" later gets them too. Waits until they are there. Not for two threads at once.
+Bytes beginning_of_stdin();
+
 /// Reads the file `path` whole, or standard input when it is "-". Fails with ErrorCode::io when the system
 /// refuses, with its reason.
 Result<ByteBlock> read_bytes(const std::string& path, const Context& context = {});

@@ -189,6 +189,40 @@ TEST_F(Models, BpOctreesAreTheirTriangles) {
     EXPECT_EQ(result["triangle"].size(), 1U);
 }
 
+TEST_F(Models, OctreesOfEveryKindAreKnownOnStdin) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.stl").exit_code, 0);
+    ASSERT_EQ(octavo("octree cube.stl --depth 4 -o cube.oct").exit_code, 0);
+    ASSERT_EQ(octavo("build cube.stl -o cube.bpo").exit_code, 0);
+    ASSERT_EQ(octavo("bsp cube.stl -o cube.bso").exit_code, 0);
+    write("points.csv", "0,0,0\n9,0,0\n");
+    for (const std::string format : {"oct", "bpo", "bso"}) {
+        const std::string file = "cube." + format;
+        const auto same = [&](const std::string& before, const std::string& after) {
+            const json named = octavo(before + file + after + " --json").json()["result"];
+            // Through a pipe, and from a file, of which the place could be set back.
+            for (const std::string& stdin_of : {"cat " + file + " | ", std::string()})
+                for (const std::string& given : {std::string(), " --format " + format}) {
+                    if (!given.empty() && !after.empty()) continue;
+                    const Ran piped = shell(stdin_of + "$octavo " + before + "-" + after + " --json" + given +
+                                            (stdin_of.empty() ? " < " + file : ""));
+                    ASSERT_EQ(piped.exit_code, 0) << before << file << given << piped.err;
+                    EXPECT_EQ(piped.json()["result"], named) << before << file << given;
+                }
+        };
+        same("stats ", "");
+        same("info ", "");
+        same("contains ", " points.csv");
+        EXPECT_EQ(octavo("stats " + file + " --json").json()["result"]["format"], format);
+    }
+    EXPECT_EQ(shell("cat cube.stl | $octavo info - --json").json()["result"]["triangles"], 12);
+    EXPECT_EQ(shell("cat cube.stl | $octavo stats -").exit_code, 3);
+    EXPECT_EQ(shell("$octavo stats - </dev/null").exit_code, 3);
+    EXPECT_EQ(octavo("stats cube.oct --format xyz").exit_code, 2);
+    // What a file is called decides unless --format does.
+    ASSERT_EQ(shell("cp cube.bpo renamed.data").exit_code, 0);
+    EXPECT_EQ(octavo("stats renamed.data --format bpo").exit_code, 0);
+}
+
 TEST_F(Models, WhereAModelMeansNothingTheVerbToUseIsNamed) {
     write("part.csg", two_boxes);
     ASSERT_EQ(octavo("octree part.csg --depth 3 -o part.oct").exit_code, 0);
