@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "boolean_facts.hpp"
 
+#include <regex>
+
 #include <fmt/format.h>
 
 #include <octavo/mesh/measure.hpp>
@@ -11,10 +13,24 @@
 namespace octavo::cli {
 namespace {
 
-void tell(Session& session, const boolean::Evaluated& evaluated, const std::string& output) {
+/// A warning of the library, which says "operand 1" and "operands 0, 2", with names instead.
+std::string with_names(const std::string& sentence, const std::vector<std::string>& names) {
+    static const std::regex numbers("operands? ([0-9]+(, [0-9]+)*)"), number("[0-9]+");
+    std::smatch found;
+    if (names.empty() || !std::regex_search(sentence, found, numbers)) return sentence;
+    const std::string list = found[1];
+    std::string named;
+    for (std::sregex_iterator at(list.begin(), list.end(), number), end; at != end; ++at)
+        named += (named.empty() ? "" : ", ") + names.at(std::stoul(at->str()));
+    return found.prefix().str() + named + found.suffix().str();
+}
+
+void tell(Session& session, const boolean::Evaluated& evaluated, const std::string& output,
+          const OperandNames& operands) {
     const mesh::Measures measures = mesh::measure(evaluated.mesh);
     const boolean::Report& report = evaluated.report;
-    session.warn(report.warnings);
+    for (const std::string& warning : report.warnings)
+        session.warn(with_names(warning, operands.names.empty() ? operands.files : operands.names));
     session.result = {{"triangles", evaluated.mesh.triangles.size()},
                       {"vertices", evaluated.mesh.vertices.size()},
                       {"volume", measures.volume},
@@ -62,12 +78,19 @@ void add_boolean_options(Verb* verb, BooleanOutput& options) {
         ->type_name("FORMAT");
 }
 
+Error error_of_operand(Error error, const BooleanOutput& options, const OperandNames& operands) {
+    if (error.code == ErrorCode::not_a_solid && options.open == "reject")
+        error.sentence += "; --open winding takes such operands";
+    return in_its_file(std::move(error), "operand", operands.files, operands.names);
+}
+
 Result<ExitCode> write_boolean(Session& session, const Context& context, const boolean::Evaluated& evaluated,
-                               const std::string& output, const std::string& format) {
+                               const std::string& output, const std::string& format,
+                               const OperandNames& operands) {
     Result<io::WriteReport> written =
         write_mesh(session, context, output, evaluated.mesh, {.format = format});
     if (!written) return std::move(written).error();
-    tell(session, evaluated, output);
+    tell(session, evaluated, output, operands);
     return ExitCode::ok;
 }
 

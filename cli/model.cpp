@@ -241,14 +241,16 @@ Error in_file(Error error, const std::string& path) {
     return error;
 }
 
-Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths) {
+Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths,
+                  const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const std::string prefix = noun + " " + std::to_string(i);
-        if (error.sentence.starts_with(prefix + ": "))
-            error.sentence.erase(0, prefix.size() + 2);
-        else if (!error.sentence.starts_with(prefix + " "))
-            continue;
-        return in_file(std::move(error), paths[i]);
+        for (const std::string& after : {prefix + ": ", prefix + " "}) {
+            if (!error.sentence.starts_with(after)) continue;
+            error.sentence.erase(0, after.size());
+            if (!names.empty()) error.sentence.insert(0, names[i] + " ");
+            return in_file(std::move(error), paths[i]);
+        }
     }
     return error;
 }

@@ -74,8 +74,10 @@ Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& conte
 /// The same error, with the file that it is about.
 Error in_file(Error error, const std::string& path);
 
-/// The same where the library knows its inputs by number: its sentence begins with "solid 3" or "operand 3".
-Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths);
+/// The same where the library knows its inputs by number: its sentence begins with "solid 3" or "operand 3", in place of
+/// which the file is told, and the input's name where it has one beside that of its file.
+Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths,
+                  const std::vector<std::string>& names = {});
 
 /// Three numbers for `--json`.
 inline Json json_of(Vec3 v) { return Json::array({v.x, v.y, v.z}); }

@@ -91,8 +91,9 @@ Result<ExitCode> evaluate(Session& session, const BooleanOptions& options, Opera
     if (!operands) return std::move(operands).error();
     Result<boolean::Evaluated> evaluated =
         session.timed("evaluate", [&] { return operation(*operands, options.output.evaluation(), context); });
-    if (!evaluated) return in_its_file(std::move(evaluated).error(), "operand", options.operands);
-    return write_boolean(session, context, *evaluated, options.output.output, *format);
+    const OperandNames names{options.operands};
+    if (!evaluated) return error_of_operand(std::move(evaluated).error(), options.output, names);
+    return write_boolean(session, context, *evaluated, options.output.output, *format, names);
 }
 
 void add_operation(Program& program, const char* name, const char* summary, Operation operation) {

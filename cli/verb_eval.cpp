@@ -112,8 +112,9 @@ Result<ExitCode> eval(Session& session, const EvalOptions& options) {
     if (!format) return format.error();
     const Result<boolean::Evaluated> evaluated =
         evaluate_formula(session, context, options, *formula, *files);
-    if (!evaluated) return in_its_file(evaluated.error(), "operand", *files);
-    return write_boolean(session, context, *evaluated, options.output.output, *format);
+    const OperandNames names{*files, formula->names};
+    if (!evaluated) return error_of_operand(evaluated.error(), options.output, names);
+    return write_boolean(session, context, *evaluated, options.output.output, *format, names);
 }
 
 }  // namespace

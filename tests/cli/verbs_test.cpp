@@ -308,6 +308,27 @@ TEST_F(Verbs, ErrorsNameTheFacesOfTheFileAndNotTriangles) {
     EXPECT_NE(closed.err.find("near facet 1"), std::string::npos) << closed.err;
 }
 
+TEST_F(Verbs, SetOperationsNameTheirOperandsAsUsersDo) {
+    write("prism.off", open_prism);
+    ASSERT_EQ(octavo("shape cube -o cube.stl").exit_code, 0);
+    const Ran united = octavo("union cube.stl prism.off -o out.ply");
+    EXPECT_NE(united.err.find("error: prism.off: is not closed"), std::string::npos) << united.err;
+    EXPECT_NE(united.err.find("--open winding"), std::string::npos) << united.err;
+    const Ran named = octavo("eval 'body - bore' body=cube.stl bore=prism.off -o out.ply");
+    EXPECT_NE(named.err.find("error: prism.off: bore is not closed"), std::string::npos) << named.err;
+    EXPECT_NE(named.err.find("--open winding"), std::string::npos) << named.err;
+    // Warnings too, and where --open winding is already there it is not advised.
+    const Ran closed = octavo("union cube.stl prism.off -o out.ply --open winding");
+    EXPECT_EQ(closed.exit_code, 0) << closed.err;
+    EXPECT_NE(closed.err.find("the first is prism.off:"), std::string::npos) << closed.err;
+    ASSERT_EQ(octavo("shape cube --size 1e-6 -o small.stl").exit_code, 0);
+    ASSERT_EQ(octavo("shape cube --size 1e3 -o large.stl").exit_code, 0);
+    const Ran small = octavo("eval 'a - b - c' a=large.stl b=small.stl c=small.stl -o out.ply");
+    EXPECT_NE(small.err.find("b, c are small beside the whole"), std::string::npos) << small.err;
+    for (const Ran& ran : {united, named, closed, small})
+        EXPECT_EQ(ran.err.find("operand "), std::string::npos) << ran.err;
+}
+
 TEST_F(Verbs, ContainsAnswersInOnAndOut) {
     ASSERT_EQ(octavo("shape cube --size 2 -o cube.stl").exit_code, 0);
     write("points.csv",
