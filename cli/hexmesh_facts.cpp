@@ -35,6 +35,14 @@ Json json_of(const hexmesh::SolidReport& solid, const std::string& name, bool ex
     return json;
 }
 
+/// How much of the solid the cells fill, in words.
+std::string filled_text(const hexmesh::SolidReport& solid) {
+    constexpr double rounding_of_sums = 1e-9;
+    const double missing = 1 - solid.filled_volume / solid.exact_volume;
+    if (std::fabs(missing) <= rounding_of_sums) return "all of it filled";
+    return fmt::format("{} % of it filled", number_text(100 * (1 - missing)));
+}
+
 std::vector<bool> solids_with_cells(const mesh::HexMesh& mesh, std::size_t solids) {
     std::vector<bool> has_cells(solids, false);
     const mesh::Materials materials = mesh::materials_of(mesh);
@@ -86,9 +94,7 @@ std::string text_of(const hexmesh::Built& built, std::span<const std::string> na
         text += fmt::format("{}: {} cells inside, {} on the boundary, volume {}", names[i],
                             grouped(solid.inside_cells), grouped(solid.boundary_cells),
                             number_text(solid.exact_volume));
-        if (exact && solid.exact_volume != 0)
-            text += fmt::format(", filled but for {} of it",
-                                number_text(std::fabs(solid.filled_volume / solid.exact_volume - 1)));
+        if (exact && solid.exact_volume != 0) text += ", " + filled_text(solid);
         text += "\n";
     }
     return text;

@@ -32,6 +32,17 @@ TEST_F(Hexmesh, TellsWhatScriptsRelyOn) {
     EXPECT_TRUE(ran.json()["timings"].contains("mesh"));
 }
 
+TEST_F(Hexmesh, SaysInWordsHowMuchOfASolidIsFilled) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.stl").exit_code, 0);
+    ASSERT_EQ(octavo("shape rock --detail 6 -o rock.ply").exit_code, 0);
+    for (const char* arguments : {"cube.stl -p 0.25", "cube.stl -p 0.3", "rock.ply --level 3"}) {
+        const Ran ran = octavo(std::string("hexmesh ") + arguments);
+        ASSERT_EQ(ran.exit_code, 0) << ran.err;
+        EXPECT_NE(ran.out.find(", all of it filled\n"), std::string::npos) << ran.out;
+        EXPECT_EQ(ran.out.find("filled but"), std::string::npos) << ran.out;
+    }
+}
+
 TEST_F(Hexmesh, WritesEveryFormat) {
     ASSERT_EQ(octavo("shape gear -o gear.ply").exit_code, 0);
     for (const char* output : {"g.inp", "g.mesh", "g.csv", "g.p8est", "g.vtu", "g.htg"}) {
