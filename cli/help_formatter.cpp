@@ -23,6 +23,12 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
     return "Usage: " + name + positionals + required + " [options]\n";
 }
 
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+    std::string text = CLI::Formatter::make_help(app, name, mode);
+    for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
+    return text;
+}
+
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
     const OptionDefinition one = definition_of(*option);
     if (one.names.empty()) return one.repeats ? " ..." : "";

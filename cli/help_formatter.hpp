@@ -14,6 +14,8 @@ class HelpFormatter : public CLI::Formatter {
     HelpFormatter();
 
     std::string make_usage(const CLI::App* app, std::string name) const override;
+    /// With one empty line between groups; CLI11 leaves two.
+    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
     std::string make_option_opts(const CLI::Option* option) const override;
     std::string make_option_desc(const CLI::Option* option) const override;
 };

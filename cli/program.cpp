@@ -22,9 +22,9 @@ constexpr const char* footer =
     "Formats follow from the file's extension; - is stdin or stdout. Data goes to stdout, messages to "
     "stderr.\n"
     "Meshes: stl, obj, ply, off, 3mf read and written; glb, gltf, dae, fbx, 3ds, ... read through assimp.\n"
-    "CSG trees of OpenSCAD: csg read. Octrees: oct read and written; vtu, htg written for ParaView. "
-    "BP-octrees: bpo.\n"
-    "Points: csv, xyz, npy, ply read. Answers: csv, npy, ply written. Pictures: png written.\n"
+    "CSG trees of OpenSCAD: csg read. Octrees: oct read and written; vtu, htg written for ParaView.\n"
+    "BP-octrees: bpo read and written. BSP-octrees: bso read and written.\n"
+    "Points: csv, xyz, npy, ply read. Answers: csv, npy, ply written. Pictures: png, svg, pdf written.\n"
     "\n"
     "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad input, 4 a limit was reached, 5 internal error, "
     "130 interrupted.\n"
@@ -49,6 +49,24 @@ std::string sentence_without_verb(const CLI::App& app, int argc, const char* con
     return with_suggestion("there is no verb " + first, first, verbs);
 }
 
+/// What is wrong when an option has another number of values than it takes. CLI11 says it in sentences that it makes of
+/// the option's name, a number and the placeholder.
+std::string sentence_of_mismatch(const std::string& message) {
+    const std::size_t colon = message.find(": ");
+    if (colon == std::string::npos) return message;
+    const std::string name = message.substr(0, colon), rest = message.substr(colon + 2);
+    const auto between = [&](std::string_view begin, std::string_view end) {
+        return rest.substr(begin.size(), rest.size() - begin.size() - end.size());
+    };
+    constexpr std::string_view too_many = "At Most 1 required but received ", too_few = "1 required ",
+                               missing = " missing";
+    if (rest.starts_with(too_many))
+        return fmt::format("{} is given {} times, and takes one value", name, between(too_many, ""));
+    if (rest.starts_with(too_few) && rest.ends_with(missing))
+        return fmt::format("{} needs a value: {}", name, between(too_few, missing));
+    return message;
+}
+
 /// What is wrong with the command line, in the words of this program.
 std::string sentence_of(const CLI::ParseError& error, const CLI::App& app, int argc,
                         const char* const* argv) {
@@ -57,7 +75,8 @@ std::string sentence_of(const CLI::ParseError& error, const CLI::App& app, int a
     if (chosen.empty()) return sentence_without_verb(app, argc, argv);
     // What is there too much explains best, also where something else is missing.
     const std::vector<std::string> extras = app.remaining(true);
-    if (extras.empty()) return error.what();
+    if (extras.empty())
+        return error.get_name() == "ArgumentMismatch" ? sentence_of_mismatch(error.what()) : error.what();
     if (!extras.front().starts_with('-'))
         return error.get_name() == "ExtrasError" ? fmt::format("{} takes no further argument {}",
                                                                chosen.front()->get_name(), extras.front())

@@ -101,7 +101,10 @@ void add_operation(Program& program, const char* name, const char* summary, Oper
     Verb* verb = program.verb(name, "Edit", summary, [options, operation](Session& session) {
         return evaluate(session, *options, operation);
     });
-    verb->add_option("FILES", options->operands, "Closed meshes, two or more")->required()->type_name("FILE");
+    verb->add_option("FILES", options->operands,
+                     "Closed meshes, one or more; of one the surface is made anew where it meets itself")
+        ->required()
+        ->type_name("FILE");
     verb->add_option("--transform", options->transforms,
                      "FILE:m0,m1,...: moves an operand by a matrix of 12 or 16 numbers, row-major")
         ->check(check_transform)

@@ -43,9 +43,9 @@ std::string bash_completion(const Definitions& verbs) {
     std::string names, options, choices;
     for (const VerbDefinition& verb : verbs) {
         names += verb.name + " ";
-        std::string of_verb = "--help";
+        std::string of_verb;
         for (const OptionDefinition& option : verb.options) {
-            of_verb += " " + joined(option.names);
+            of_verb += (of_verb.empty() ? "" : " ") + joined(option.names);
             for (const std::string& name : option.names)
                 if (!option.choices.empty())
                     choices += fmt::format("        \"{} {}\") choices=\"{}\" ;;\n", verb.name, name,

@@ -83,7 +83,9 @@ TEST_F(Conventions, WhatIsWrongWithAnOptionIsSaidWithItsNameAndItsLimits) {
         {"contains - -", {"stdin"}},
         {"info a.off --jsno", {"--jsno", "did you mean --json?"}},
         {"shape spheer -o a.stl", {"spheer", "did you mean sphere?"}},
-        {"inof a.off", {"inof", "did you mean info?"}}};
+        {"inof a.off", {"inof", "did you mean info?"}},
+        {"octree a.off --depth 5 --depth 6", {"--depth is given 2 times, and takes one value"}},
+        {"octree a.off --depth", {"--depth needs a value: N"}}};
     for (const auto& [arguments, expected] : words)
         for (const std::string& word : expected)
             EXPECT_NE(octavo(arguments).err.find(word), std::string::npos) << arguments << ": " << word;
@@ -124,8 +126,23 @@ TEST_F(Conventions, HelpTellsDefaultsAndChoicesAndFormats) {
     EXPECT_EQ(octree.find("INT in"), std::string::npos);
     EXPECT_NE(octavo("render --help").out.find("default 1200x900"), std::string::npos);
     EXPECT_NE(octavo("convert --help").out.find("stl, obj, ply, off or 3mf"), std::string::npos);
-    for (const char* format : {"stl", "obj", "ply", "off", "3mf", "csg", "oct", "vtu", "htg", "npy", "png"})
-        EXPECT_NE(octavo("--help").out.find(format), std::string::npos) << format;
+    for (const char* format : {"stl", "obj", "ply", "off", "3mf", "csg", "oct", "bpo", "bso", "vtu", "htg",
+                               "npy", "png", "svg", "pdf"})
+        for (const char* text : {"--help", "man"})
+            EXPECT_NE(octavo(text).out.find(format), std::string::npos) << format << " in " << text;
+    for (const char* format : {".csg", ".oct", ".bpo", ".bso"})
+        EXPECT_NE(octavo("info --help").out.find(format), std::string::npos) << format;
+    EXPECT_EQ(octree.find("\n\n\n"), std::string::npos) << octree;
+    EXPECT_NE(octree.find("\n\nCommon options:"), std::string::npos) << octree;
+}
+
+TEST_F(Conventions, WhatHelpSaysOfTheNumberOfOperandsIsTrue) {
+    ASSERT_EQ(octavo("shape cube -o a.off").exit_code, 0);
+    for (const std::string verb : {"union", "intersection", "difference", "xor"}) {
+        EXPECT_NE(octavo(verb + " --help").out.find("one or more"), std::string::npos) << verb;
+        EXPECT_EQ(octavo(verb + " a.off -o b.off").exit_code, 0) << verb;
+        EXPECT_EQ(octavo(verb + " -o b.off").exit_code, 2) << verb;
+    }
 }
 
 TEST_F(Conventions, ABadFileIsExitCode3WithTheFileAndTheLine) {
@@ -248,6 +265,7 @@ TEST_F(Conventions, BashCompletesVerbsOptionsAndChoices) {
     EXPECT_EQ(completed("octavo oct", 1), "octree\n");
     EXPECT_EQ(completed("octavo octree --dep", 2), "--depth\n");
     EXPECT_EQ(completed("octavo octree --open w", 3), "winding\n");
+    EXPECT_EQ(completed("octavo octree --he", 2), "--help\n") << "once";
 }
 
 TEST_F(Conventions, ZshAndFishCompletionAreForTheseShells) {
