@@ -207,19 +207,31 @@ TEST(Descend, RefusesMoreNodesThanAllowedAndExactlyThese) {
     EXPECT_TRUE(descend(Monochrome{Node::black}, with_threads(1), one)) << "merged nodes do not count";
 }
 
-// Every cell down to the last level is split: 8^21 nodes.
-struct Endless : Monochrome {
+// Every cell down to the last level is split: 8^21 nodes. The first levels fork.
+struct Endless {
+    struct Description {
+        std::size_t weight = 5;
+    };
+    struct Workspace {};
+    using Output = DfOutput;
+
     int depth() const { return max_level; }
-    void restrict_to_children(const Cell&, const Description&, Workspace&,
+    Workspace make_workspace() const { return {}; }
+    Output make_output() const { return {}; }
+    Restricted<Description> root(Workspace&) const { return {Node::split, {}}; }
+    std::size_t weight(const Description& d) const { return d.weight; }
+    Description transfer(const Cell&, const Description& d, const Workspace&, Workspace&) const { return d; }
+    void restrict_to_children(const Cell&, const Description& d, Workspace&,
                               Children<Description>& children) const {
-        for (Restricted<Description>& child : children) child.node = Node::split;
+        for (Restricted<Description>& child : children)
+            child = {Node::split, {d.weight > 0 ? d.weight - 1 : 0}};
     }
 };
 
 TEST(Descend, StopsSoonWhenThereAreTooManyNodes) {
     for (const int threads : {1, 3}) {
         DescentOptions options;
-        options.fork_weight = 0;
+        options.fork_weight = 2;
         options.max_nodes = 1'000'000;
         const Result<DfOutput> refused = descend(Endless{}, with_threads(threads), options);
         ASSERT_FALSE(refused);
