@@ -237,8 +237,17 @@ void warn_of_small_operands(std::span<const mesh::Mesh* const> operands, Soup& s
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", least);
     soup.warnings.push_back((count == 1 ? "operand " : "operands ") + names +
-                            (count > 4 ? " and others" : "") + " are small beside the whole: " + text +
+                            (count > 4 ? " and others" : "") + (count == 1 ? " is" : " are") +
+                            " small beside the whole: " + text +
                             " lattice units across, so shapes are rounded or vanish; split the job or scale");
+}
+
+std::string warning_of(const Closing& closing) {
+    const std::size_t open = closing.operands.size();
+    return (open == 1 ? "1 operand is" : std::to_string(open) + " operands are") +
+           " open, the first is operand " + std::to_string(closing.operands[0]) + ": " +
+           std::to_string(closing.open_sides) + " open sides were closed by " +
+           std::to_string(closing.added_facets) + (closing.added_facets == 1 ? " facet" : " facets");
 }
 
 }  // namespace
@@ -275,11 +284,7 @@ Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands
     if (open == OpenOperands::winding) {
         const Closing closing = close_operands(soup);
         soup.closing_facets = closing.added_facets;
-        if (!closing.operands.empty())
-            soup.warnings.push_back(
-                std::to_string(closing.operands.size()) + " operands are open, the first is operand " +
-                std::to_string(closing.operands[0]) + ": " + std::to_string(closing.open_sides) +
-                " open sides were closed by " + std::to_string(closing.added_facets) + " facets");
+        if (!closing.operands.empty()) soup.warnings.push_back(warning_of(closing));
     }
     merge_coincident(soup);
     return soup;

@@ -346,7 +346,7 @@ TEST(Evaluate, NamesOperandsThatTheLatticeIsTooCoarseFor) {
     const Result<Evaluated> result = unite(pair);
     ASSERT_TRUE(result);
     ASSERT_GE(result->report.warnings.size(), 1U);
-    EXPECT_NE(result->report.warnings.back().find("operand 0 are small beside the whole"), std::string::npos)
+    EXPECT_NE(result->report.warnings.back().find("operand 0 is small beside the whole"), std::string::npos)
         << result->report.warnings.back();
     EXPECT_EQ(tests::manifold_defect(result->mesh), "");
 }
