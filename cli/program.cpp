@@ -77,17 +77,21 @@ std::string sentence_of(const CLI::ParseError& error, const CLI::App& app, int a
     const std::vector<std::string> extras = app.remaining(true);
     if (extras.empty())
         return error.get_name() == "ArgumentMismatch" ? sentence_of_mismatch(error.what()) : error.what();
-    if (!extras.front().starts_with('-'))
-        return error.get_name() == "ExtrasError" ? fmt::format("{} takes no further argument {}",
-                                                               chosen.front()->get_name(), extras.front())
-                                                 : error.what();
+    const auto extra = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
+        return word.size() > 1 && word.starts_with('-');
+    });
+    if (extra == extras.end())
+        return error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)
+                   ? fmt::format("{} takes no further argument {}", chosen.front()->get_name(),
+                                 extras.front())
+                   : error.what();
     std::vector<std::string> options;
     for (const VerbDefinition& verb : definitions_of(app))
         if (verb.name == chosen.front()->get_name())
             for (const OptionDefinition& one : verb.options)
                 options.insert(options.end(), one.names.begin(), one.names.end());
-    return with_suggestion(fmt::format("{} has no option {}", chosen.front()->get_name(), extras.front()),
-                           extras.front(), options);
+    return with_suggestion(fmt::format("{} has no option {}", chosen.front()->get_name(), *extra), *extra,
+                           options);
 }
 
 /// Whether an object is wanted on stdout; asked when the command line could not be parsed.

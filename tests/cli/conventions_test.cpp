@@ -85,6 +85,8 @@ TEST_F(Conventions, WhatIsWrongWithAnOptionIsSaidWithItsNameAndItsLimits) {
         {"shape spheer -o a.stl", {"spheer", "did you mean sphere?"}},
         {"inof a.off", {"inof", "did you mean info?"}},
         {"octree a.off --depth 5 --depth 6", {"--depth is given 2 times, and takes one value"}},
+        {"check a.off b.off", {"check takes no further argument b.off"}},
+        {"octree a.off 2 --dpth 3", {"octree has no option --dpth", "did you mean --depth?"}},
         {"octree a.off --depth", {"--depth needs a value: N"}}};
     for (const auto& [arguments, expected] : words)
         for (const std::string& word : expected)
