@@ -7,9 +7,7 @@
 
 #include <octavo/hexmesh/buffer_layer.hpp>
 #include <octavo/hexmesh/fit.hpp>
-#include <octavo/mesh/hex_sides.hpp>
-#include <octavo/mesh/materials.hpp>
-#include <octavo/query/closest.hpp>
+#include <octavo/hexmesh/separating_surface.hpp>
 
 namespace octavo::hexmesh {
 namespace {
@@ -66,7 +64,11 @@ enum class Role : std::uint8_t { fixed, inner, surface, hanging };
 class Fitter {
   public:
     Fitter(mesh::HexMesh& mesh, const FitOptions& options)
-        : mesh_(mesh), options_(options), hanging_(hanging_of(mesh)), role_(mesh.node_count(), Role::fixed) {
+        : mesh_(mesh),
+          options_(options),
+          hanging_(hanging_of(mesh)),
+          role_(mesh.node_count(), Role::fixed),
+          surface_(separating_nodes(mesh)) {
         if (mesh.positions.empty()) {
             mesh.positions.reserve(mesh.nodes.size());
             for (NodeIndex node = 0; node < mesh.nodes.size(); ++node)
@@ -78,10 +80,10 @@ class Fitter {
         quality_ = scaled_jacobians(mesh);
     }
 
-    const std::vector<NodeIndex>& surface() const { return surface_; }
+    const SeparatingNodes& surface() const { return surface_; }
     std::vector<Vec3> surface_positions() const {
         std::vector<Vec3> points;
-        for (const NodeIndex node : surface_) points.push_back(mesh_.positions[node]);
+        for (const NodeIndex node : surface_.nodes) points.push_back(mesh_.positions[node]);
         return points;
     }
 
@@ -89,15 +91,15 @@ class Fitter {
     /// neighbours there; where it is when the surface turns between them, for smoothing would round edges off.
     std::vector<Vec3> smoothed(const std::vector<query::Closest>& nearest) const {
         std::vector<Vec3> points;
-        for (std::size_t i = 0; i < surface_.size(); ++i) {
+        for (std::size_t i = 0; i < surface_.nodes.size(); ++i) {
             Vec3 sum;
             double count = 0, least_cosine = 1;
-            for (const std::uint32_t next : neighbours_[surface_[i]]) {
+            for (const std::uint32_t next : neighbours_[surface_.nodes[i]]) {
                 if (role_[next] != Role::surface) continue;
                 sum = sum + mesh_.positions[next], ++count;
                 least_cosine = std::min(least_cosine, dot(nearest[i].normal, nearest[place_[next]].normal));
             }
-            const Vec3 at = mesh_.positions[surface_[i]];
+            const Vec3 at = mesh_.positions[surface_.nodes[i]];
             const bool is_smooth = count > 0 && least_cosine > smooth_cosine;
             points.push_back(is_smooth ? 0.5 * at + (0.5 / count) * sum : at);
         }
@@ -105,7 +107,7 @@ class Fitter {
     }
 
     void move_surface(const std::vector<Vec3>& targets) {
-        for (std::size_t i = 0; i < surface_.size(); ++i) move_towards(surface_[i], targets[i]);
+        for (std::size_t i = 0; i < surface_.nodes.size(); ++i) move_towards(surface_.nodes[i], targets[i]);
     }
     void smooth_inside() {
         for (const NodeIndex node : inner_) {
@@ -140,30 +142,16 @@ class Fitter {
         dependents_ = Lists(std::move(dependents), mesh_.node_count());
     }
 
-    /// Nodes on the boundary of the solids, and where cells of different materials meet.
     void find_surface() {
-        const mesh::Materials materials = mesh::materials_of(mesh_);
-        const auto mark = [&](NodeIndex node) {
-            if (role_[node] == Role::fixed) role_[node] = Role::surface;
-        };
-        for (const mesh::HexSide& side : mesh::boundary_sides(mesh_).sides)
-            if (!materials.solids[materials.of(mesh_, side.cell)].empty())
-                for (const NodeIndex node : side.corners) mark(node);
-        for (NodeIndex node = 0; node < mesh_.node_count(); ++node) {
-            const auto cells = cells_[node];
-            for (const std::uint32_t cell : cells)
-                if (materials.of(mesh_, cell) != materials.of(mesh_, cells[0])) mark(node);
-        }
         place_.resize(mesh_.node_count());
-        for (NodeIndex node = 0; node < mesh_.node_count(); ++node)
-            if (role_[node] == Role::surface) {
-                place_[node] = static_cast<std::uint32_t>(surface_.size());
-                surface_.push_back(node);
-            }
+        for (std::size_t i = 0; i < surface_.nodes.size(); ++i) {
+            role_[surface_.nodes[i]] = Role::surface;
+            place_[surface_.nodes[i]] = static_cast<std::uint32_t>(i);
+        }
     }
 
     void find_layers() {
-        std::vector<NodeIndex> front = surface_;
+        std::vector<NodeIndex> front = surface_.nodes;
         for (int layer = 0; layer < options_.layers; ++layer) {
             std::vector<NodeIndex> next;
             for (const NodeIndex node : front)
@@ -218,22 +206,11 @@ class Fitter {
     Lists neighbours_, cells_,
         dependents_;  ///< per node; cells include those of hanging nodes that depend on it
     std::vector<Role> role_;
-    std::vector<NodeIndex> surface_, inner_;
+    SeparatingNodes surface_;
+    std::vector<NodeIndex> inner_;
     std::vector<std::uint32_t> place_;  ///< of surface nodes in `surface_`
     std::vector<double> quality_, changed_;
 };
-
-/// All solids as one soup: which one is nearest does not matter.
-mesh::Mesh joined(std::span<const mesh::Mesh> solids) {
-    mesh::Mesh all;
-    for (const mesh::Mesh& solid : solids) {
-        const auto first = static_cast<mesh::VertexIndex>(all.vertices.size());
-        all.vertices.insert(all.vertices.end(), solid.vertices.begin(), solid.vertices.end());
-        for (const mesh::Triangle& t : solid.triangles)
-            all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    }
-    return all;
-}
 
 struct Distances {
     double mean = 0, largest = 0;
@@ -255,27 +232,29 @@ Distances distances_of(const std::vector<query::Closest>& answers, double small)
 
 Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, const FitOptions& options,
                       const Context& context) {
-    const mesh::Mesh target = joined(solids);
-    query::ClosestOptions asking;
-    asking.sign = query::ClosestOptions::Sign::none;
-    const Result<query::ClosestQuery> closest = query::ClosestQuery::build(target, asking, context);
-    if (!closest) return closest.error();
-    const Vec3 extents = target.bounds().extents();
+    const Result<SeparatingSurfaces> surfaces = SeparatingSurfaces::build(solids, mesh, context);
+    if (!surfaces) return surfaces.error();
+    Box3 bounds;
+    for (const mesh::Mesh& solid : solids) bounds.add(solid.bounds());
+    const Vec3 extents = bounds.extents();
     const double small = 1e-6 * std::max({extents.x, extents.y, extents.z});
 
     context.report("fit", 0);
     std::optional<Fitter> fitter(std::in_place, mesh, options);
+    const auto nearest_to = [&](const std::vector<Vec3>& points) {
+        return (*surfaces)(fitter->surface(), points, context);
+    };
     FitReport report;
-    std::vector<query::Closest> answers = (*closest)(fitter->surface_positions(), context);
+    std::vector<query::Closest> answers = nearest_to(fitter->surface_positions());
     const Distances before = distances_of(answers, small);
-    report.boundary_nodes = fitter->surface().size();
+    report.boundary_nodes = fitter->surface().nodes.size();
     report.mean_distance_before = before.mean, report.largest_distance_before = before.largest;
     // Where the cubes fit as they are, a layer would only make corners worse.
     if (options.buffer_layer == BufferLayer::where_possible && before.small < report.boundary_nodes &&
         insert_buffer_layer(mesh)) {
         report.has_buffer_layer = true;
         fitter.emplace(mesh, options);
-        answers = (*closest)(fitter->surface_positions(), context);
+        answers = nearest_to(fitter->surface_positions());
     }
     for (int round = 0; round < options.rounds; ++round) {
         if (context.cancelled()) return Context::cancelled_error();
@@ -285,11 +264,11 @@ Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, c
         fitter->smooth_inside();
         context.report("fit", static_cast<double>(round + 1) / (options.rounds + 1));
         // The last rounds only draw nearer.
-        answers = (*closest)(
-            round + 3 < options.rounds ? fitter->smoothed(answers) : fitter->surface_positions(), context);
+        answers =
+            nearest_to(round + 3 < options.rounds ? fitter->smoothed(answers) : fitter->surface_positions());
     }
     if (context.cancelled()) return Context::cancelled_error();
-    const Distances after = distances_of((*closest)(fitter->surface_positions(), context), small);
+    const Distances after = distances_of(nearest_to(fitter->surface_positions()), small);
     report.mean_distance = after.mean, report.largest_distance = after.largest;
     report.nodes_on_surface = after.small;
     mesh.fractions.clear();

@@ -14,7 +14,7 @@
 // Draws the boundary of a mesh, and the interfaces between its materials, onto the surfaces of the solids.
 //
 // Idea: a layer of cells between the steps of the mesh and the surface (buffer_layer.hpp); then rounds of small moves, each of which is taken back unless every cell that it changes stays good. A node on
-// the boundary wants to be at the point of the surface nearest to the mean of its neighbours on the boundary; a node a
+// the boundary wants to be at the point nearest to the mean of its neighbours there, on the surface of the solids that separate its cells (separating_surface.hpp); a node a
 // few layers inside wants to be in the middle of its neighbours. It moves there, or half the way, a quarter, an eighth.
 // Hanging nodes follow their masters, so that constraints stay what they were. Where the surface turns by more than 30
 // degrees between a node and its neighbours, the node goes to the surface without smoothing, which would round edges off.
@@ -48,8 +48,8 @@ struct FitReport {
     double mean_distance_before = 0, largest_distance_before = 0;
 };
 
-/// Moves nodes: sets `mesh.positions`; with a layer the mesh has more cells and is no octree any more. Empties `mesh.fractions`, which are no longer true.
-/// Errors: those of query::ClosestQuery; cancelled.
+/// Moves nodes of the mesh of these solids: sets `mesh.positions`; with a layer the mesh has more cells and is no octree any more. Empties `mesh.fractions`, which are no longer true.
+/// Open solids are closed as OpenPolicy::winding does for meshing. Errors: those of query::ClosestQuery; cancelled.
 Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, const FitOptions& options = {},
                       const Context& context = {});
 

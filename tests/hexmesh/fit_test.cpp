@@ -120,6 +120,49 @@ TEST(Fit, DrawsInterfacesOntoTheirSurface) {
     EXPECT_LT(report->mean_distance, report->mean_distance_before / 10);
 }
 
+Box3 bounds_of(const mesh::HexMesh& mesh, mesh::SolidIndex solid) {
+    Box3 bounds;
+    for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell) {
+        const mesh::SolidSet& set = mesh.set_of(cell);
+        for (const auto* solids : {&set.inside, &set.boundary})
+            if (std::find(solids->begin(), solids->end(), solid) != solids->end())
+                for (const Vec3& corner : corners_of(mesh, cell)) bounds.add(corner);
+    }
+    return bounds;
+}
+
+void expect_cube(const Box3& bounds, double half) {
+    EXPECT_NEAR(length(bounds.low - Vec3{-half, -half, -half}), 0, 1e-6);
+    EXPECT_NEAR(length(bounds.high - Vec3{half, half, half}), 0, 1e-6);
+}
+
+mesh::Mesh cube(double half) { return mesh::box({-half, -half, -half}, {half, half, half}); }
+
+TEST(Fit, DrawsTheBoundaryPastASurfaceJustBelowIt) {
+    // No cell lies between the cubes, so those on the boundary belong to both; the outer cube's surface is farther off.
+    const std::vector<mesh::Mesh> solids{cube(5.3), cube(5.05)};
+    for (const Keep keep : {Keep::manifold, Keep::half}) {
+        Result<Built> built = build(solids, {.precision = 1, .layers = 1, .keep = keep});
+        ASSERT_TRUE(built);
+        const Result<FitReport> report = fit(built->mesh, solids);
+        ASSERT_TRUE(report) << report.error().describe();
+        EXPECT_EQ(report->nodes_on_surface, report->boundary_nodes);
+        expect_cube(bounds_of(built->mesh, 0), 5.3);
+        EXPECT_NEAR(report->mean_distance_before, 0.3, 0.1);
+    }
+}
+
+TEST(Fit, DrawsEachSurfaceToItsOwnSolid) {
+    // The inner cube's cells end at 4, where the plate is nearer than the cube; the plate has no cells at all.
+    const std::vector<mesh::Mesh> solids{cube(7.3), cube(4.4), mesh::box({4.05, -3, -3}, {4.15, 3, 3})};
+    Result<Built> built = build(solids, {.precision = 1, .layers = 1, .keep = Keep::manifold});
+    ASSERT_TRUE(built);
+    const Result<FitReport> report = fit(built->mesh, solids);
+    ASSERT_TRUE(report) << report.error().describe();
+    expect_cube(bounds_of(built->mesh, 0), 7.3);
+    expect_cube(bounds_of(built->mesh, 1), 4.4);
+}
+
 TEST(Fit, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
     const mesh::Mesh solid = mesh::displaced_sphere(10);
     Result<Built> a = build(std::span(&solid, 1), {.level = 4, .layers = 1, .keep = Keep::manifold});
