@@ -163,6 +163,24 @@ TEST(Fit, DrawsEachSurfaceToItsOwnSolid) {
     expect_cube(bounds_of(built->mesh, 1), 4.4);
 }
 
+TEST(Fit, DrawsToTheFacesThatCloseHolesToo) {
+    // A box without its top: the cap's nodes are at 4 and belong to 4.4, not to the rim or nowhere.
+    mesh::Mesh open = mesh::box({-4.4, -4.4, -4.4}, {4.4, 4.4, 4.4});
+    std::erase_if(open.triangles, [&](const mesh::Triangle& t) {
+        return open.vertices[t[0]].z > 0 && open.vertices[t[1]].z > 0 && open.vertices[t[2]].z > 0;
+    });
+    ASSERT_EQ(open.triangles.size(), 10u);
+    Result<Built> built =
+        build(std::span(&open, 1),
+              {.precision = 1, .layers = 1, .keep = Keep::manifold, .open = classic::OpenPolicy::winding});
+    ASSERT_TRUE(built) << built.error().describe();
+    const Result<FitReport> report = fit(built->mesh, std::span(&open, 1));
+    ASSERT_TRUE(report) << report.error().describe();
+    EXPECT_EQ(report->nodes_on_surface, report->boundary_nodes);
+    EXPECT_NEAR(report->largest_distance_before, 0.4, 1e-6);
+    expect_cube(bounds_of(built->mesh, 0), 4.4);
+}
+
 TEST(Fit, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
     const mesh::Mesh solid = mesh::displaced_sphere(10);
     Result<Built> a = build(std::span(&solid, 1), {.level = 4, .layers = 1, .keep = Keep::manifold});
