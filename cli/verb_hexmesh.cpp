@@ -9,6 +9,7 @@
 #include <octavo/hexmesh/conforming.hpp>
 #include <octavo/hexmesh/fit.hpp>
 #include <octavo/io/openscad_csg.hpp>
+#include <octavo/mesh/material_names.hpp>
 #include <octavo/render/png.hpp>
 #include <octavo/render/raster.hpp>
 
@@ -105,15 +106,12 @@ Result<hexmesh::Options> meshing_options(const HexmeshOptions& options) {
     return meshing;
 }
 
-/// The names of the solids: their files', without folder and extension; those of two inputs may be equal.
+/// The names of the solids: their files', without folder and extension, and a number where two are equal.
 std::vector<std::string> names_of(const std::vector<std::string>& inputs) {
     std::vector<std::string> names;
-    for (const std::string& path : inputs) {
-        std::string name = path == "-" ? "stdin" : std::filesystem::path(path).stem().string();
-        while (std::find(names.begin(), names.end(), name) != names.end()) name += "_2";
-        names.push_back(std::move(name));
-    }
-    return names;
+    for (const std::string& path : inputs)
+        names.push_back(path == "-" ? "stdin" : std::filesystem::path(path).stem().string());
+    return mesh::distinct_names(names);
 }
 
 /// What is known of the cells besides the mesh: numbers that the user brings, and their quality where cells are no cubes.

@@ -6,6 +6,7 @@
 
 #include <octavo/hexmesh/to_polyhedra.hpp>
 #include <octavo/mesh/hex_sides.hpp>
+#include <octavo/mesh/material_names.hpp>
 
 namespace octavo::hexmesh {
 namespace {
@@ -50,7 +51,10 @@ struct Face {
 class Polyhedra {
   public:
     Polyhedra(const mesh::HexMesh& mesh, std::span<const std::string> names)
-        : mesh_(mesh), names_(names), edges_(mesh.node_count()) {}
+        : mesh_(mesh),
+          materials_(mesh::materials_of(mesh)),
+          names_(mesh::name_materials(materials_, names, mesh::word_rules())),
+          edges_(mesh.node_count()) {}
 
     mesh::PolyhedralMesh run() {
         for (NodeIndex node = 0; node < mesh_.node_count(); ++node)
@@ -61,7 +65,7 @@ class Polyhedra {
         find_faces();
         edges_.sort();  // with the middles that half-covered sides needed
         write_faces();
-        name_zones();
+        fill_zones();
         for (const octree::CellKey cell : mesh_.cells) result_.cell_level.push_back(cell.level());
         result_.cells = static_cast<std::uint32_t>(mesh_.cell_count());
         return std::move(result_);
@@ -154,29 +158,19 @@ class Polyhedra {
         return first;
     }
 
-    std::string name_of(std::uint32_t solid) const {
-        if (solid == no_cell) return "outside";
-        return solid < names_.size() ? names_[solid] : "solid_" + std::to_string(solid);
+    const std::string& name_of(std::uint32_t solid) const {
+        return solid == no_cell ? names_.outside : names_.solids[solid];
     }
 
-    void name_zones() {
-        std::map<std::vector<std::uint32_t>, std::vector<std::uint32_t>> zones;
-        for (CellIndex cell = 0; cell < mesh_.cell_count(); ++cell) {
-            const mesh::SolidSet& set = mesh_.set_of(cell);
-            std::vector<std::uint32_t> solids = set.inside;
-            solids.insert(solids.end(), set.boundary.begin(), set.boundary.end());
-            std::sort(solids.begin(), solids.end());
-            zones[solids].push_back(cell);
-        }
-        for (auto& [solids, cells] : zones) {
-            std::string name = solids.empty() ? name_of(no_cell) : "";
-            for (const std::uint32_t solid : solids) name += (name.empty() ? "" : "+") + name_of(solid);
-            result_.zones.push_back({std::move(name), std::move(cells)});
-        }
+    void fill_zones() {
+        for (const std::string& name : names_.materials) result_.zones.push_back({name, {}});
+        for (CellIndex cell = 0; cell < mesh_.cell_count(); ++cell)
+            result_.zones[materials_.of(mesh_, cell)].cells.push_back(cell);
     }
 
     const mesh::HexMesh& mesh_;
-    std::span<const std::string> names_;
+    mesh::Materials materials_;
+    mesh::MaterialNames names_;
     Middles edges_;
     std::map<std::pair<NodeIndex, NodeIndex>, NodeIndex> added_;
     std::vector<std::pair<std::array<NodeIndex, 2>, NodeIndex>> edges_to_add_;

@@ -21,7 +21,8 @@
 namespace octavo::hexmesh {
 
 /// `names` are those of the solids; those that are missing are called solid_0, solid_1, … Cells outside all solids
-/// are zone and patch "outside".
+/// are zone and patch "outside". Names are words,
+/// and no two zones have the same, nor have two patches (mesh/material_names.hpp).
 mesh::PolyhedralMesh to_polyhedra(const mesh::HexMesh& mesh, std::span<const std::string> names = {});
 
 }  // namespace octavo::hexmesh

@@ -11,7 +11,7 @@
 #include <octavo/io/abaqus.hpp>
 #include <octavo/io/output.hpp>
 #include <octavo/mesh/hex_sides.hpp>
-#include <octavo/mesh/materials.hpp>
+#include <octavo/mesh/material_names.hpp>
 
 namespace octavo::io {
 namespace {
@@ -34,15 +34,16 @@ void append_short(Output& output, double value) {
     }
 }
 
-/// A name as Abaqus takes it: upper case, letters, digits and underscores, a letter first, at most 80 characters.
-std::string label(std::string name) {
-    for (char& c : name) {
-        const auto letter = static_cast<unsigned char>(c);
-        c = std::isalnum(letter) ? static_cast<char>(std::toupper(letter)) : '_';
-    }
-    if (!std::isalpha(static_cast<unsigned char>(name[0]))) name.insert(0, "S");
+constexpr std::string_view surface_of = "SURFACE_OF_";
+
+/// Abaqus reads 80 characters of a name, and a surface is called as its element set, with a word before that.
+mesh::NameRules name_rules() {
     constexpr std::size_t longest_name = 80;
-    return name.substr(0, longest_name);
+    return {.joint = "_AND_",
+            .allows = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; },
+            .upper_case = true,
+            .before_other_than_letters = "S",
+            .longest = longest_name - surface_of.size()};
 }
 
 void append_count(Output& output, std::uint64_t value) { output.append_number(value); }
@@ -61,11 +62,10 @@ void write_nodes(Output& output, const mesh::HexMesh& mesh) {
 }
 
 void write_elements(Output& output, const mesh::HexMesh& mesh, const mesh::Materials& materials,
-                    std::span<const std::string> names) {
+                    const std::vector<std::string>& names) {
     constexpr std::array<std::size_t, 8> order{0, 1, 3, 2, 4, 5, 7, 6};
     for (std::uint32_t material = 0; material < materials.solids.size(); ++material) {
-        const std::string name = label(mesh::material_name(materials.solids[material], names, "_and_"));
-        output.append("*ELEMENT, TYPE=C3D8, ELSET=" + name + "\n");
+        output.append("*ELEMENT, TYPE=C3D8, ELSET=" + names[material] + "\n");
         for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell) {
             if (materials.of(mesh, cell) != material) continue;
             append_count(output, cell + std::uint64_t{1});
@@ -97,7 +97,7 @@ void write_end_sets(Output& output, const mesh::HexMesh& mesh) {
 
 /// The boundary of each material as an element surface, for pressures and contact.
 void write_surfaces(Output& output, const mesh::HexMesh& mesh, const mesh::Materials& materials,
-                    std::span<const std::string> names) {
+                    const std::vector<std::string>& names) {
     // Abaqus numbers the sides of C3D8: bottom, top, then those at the edges 1-2, 2-3, 3-4 and 4-1 of the bottom.
     constexpr std::array<std::uint64_t, 6> number_of_side{6, 4, 3, 5, 1, 2};
     const std::vector<mesh::HexSide> sides = mesh::boundary_sides(mesh).sides;
@@ -106,10 +106,8 @@ void write_surfaces(Output& output, const mesh::HexMesh& mesh, const mesh::Mater
         for (const mesh::HexSide& side : sides) {
             if (materials.of(mesh, side.cell) != material) continue;
             if (!begun)
-                output.append(
-                    "*SURFACE, TYPE=ELEMENT, NAME=" +
-                    label("surface_of_" + mesh::material_name(materials.solids[material], names, "_and_")) +
-                    "\n");
+                output.append("*SURFACE, TYPE=ELEMENT, NAME=" + std::string(surface_of) + names[material] +
+                              "\n");
             begun = true;
             append_count(output, side.cell + std::uint64_t{1});
             output.append(",S");
@@ -173,9 +171,11 @@ Result<WriteReport> write_abaqus(const std::string& path, const mesh::HexMesh& m
     output->append("** Octree mesh with tied hanging nodes\n");
     write_nodes(*output, mesh);
     const mesh::Materials materials = mesh::materials_of(mesh);
-    write_elements(*output, mesh, materials, options.names);
+    const std::vector<std::string> names =
+        mesh::name_materials(materials, options.names, name_rules()).materials;
+    write_elements(*output, mesh, materials, names);
     write_end_sets(*output, mesh);
-    write_surfaces(*output, mesh, materials, options.names);
+    write_surfaces(*output, mesh, materials, names);
     write_constraints(*output, mesh, options.field);
     output->append(options.tail);
     if (context.cancelled()) return Context::cancelled_error();

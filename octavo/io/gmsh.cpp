@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <octavo/io/gmsh.hpp>
 #include <octavo/io/output.hpp>
 #include <octavo/mesh/hex_sides.hpp>
-#include <octavo/mesh/materials.hpp>
+#include <octavo/mesh/material_names.hpp>
 
 namespace octavo::io {
 namespace {
@@ -23,9 +23,11 @@ struct Group {
 
 std::vector<Group> groups_of(const mesh::HexMesh& mesh, std::span<const std::string> names) {
     const mesh::Materials materials = mesh::materials_of(mesh);
+    const mesh::NameRules rules{.allows = [](char c) { return c != '"' && c != '\n'; },
+                                .before_other_than_letters = {}};
+    mesh::MaterialNames named = mesh::name_materials(materials, names, rules);
     std::vector<Group> groups(materials.solids.size());
-    for (std::size_t i = 0; i < groups.size(); ++i)
-        groups[i].name = mesh::material_name(materials.solids[i], names, "+");
+    for (std::size_t i = 0; i < groups.size(); ++i) groups[i].name = std::move(named.materials[i]);
     for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell)
         groups[materials.of(mesh, cell)].cells.push_back(cell);
     for (const mesh::HexSide& side : mesh::boundary_sides(mesh).sides)
@@ -39,11 +41,9 @@ void append_int(Output& output, std::size_t value) { output.append_binary(static
 void write_names(Output& output, const std::vector<Group>& groups) {
     output.append("$PhysicalNames\n" + std::to_string(2 * groups.size()) + "\n");
     for (const int dimension : {surface, volume})
-        for (std::size_t i = 0; i < groups.size(); ++i) {
-            std::string name = groups[i].name;
-            std::replace(name.begin(), name.end(), '"', '_');
-            output.append(std::to_string(dimension) + " " + std::to_string(i + 1) + " \"" + name + "\"\n");
-        }
+        for (std::size_t i = 0; i < groups.size(); ++i)
+            output.append(std::to_string(dimension) + " " + std::to_string(i + 1) + " \"" + groups[i].name +
+                          "\"\n");
     output.append("$EndPhysicalNames\n");
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -10,21 +11,23 @@
 
 #include <octavo/io/openfoam.hpp>
 #include <octavo/io/output.hpp>
+#include <octavo/mesh/material_names.hpp>
 
 namespace octavo::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string word(const std::string& name) {
-    std::string result;
-    for (const char c : name) {
-        const bool allowed =
-            std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '+' || c == '-' || c == '.';
-        result += allowed ? c : '_';
-    }
-    if (result.empty() || !std::isalpha(static_cast<unsigned char>(result[0]))) result.insert(0, "s");
-    return result;
+/// The words that name patches and zones: one for each name that occurs, of zones first.
+std::map<std::string, std::string> words_of(const mesh::PolyhedralMesh& mesh) {
+    std::vector<std::string> names;
+    for (const mesh::PolyhedralMesh::Zone& zone : mesh.zones) names.push_back(zone.name);
+    for (const mesh::PolyhedralMesh::Patch& patch : mesh.patches)
+        if (std::find(names.begin(), names.end(), patch.name) == names.end()) names.push_back(patch.name);
+    const std::vector<std::string> words = mesh::distinct_names(names, mesh::word_rules());
+    std::map<std::string, std::string> word_of;
+    for (std::size_t i = 0; i < names.size(); ++i) word_of[names[i]] = words[i];
+    return word_of;
 }
 
 void begin(Output& output, const char* type, const char* object, const std::string& note = {}) {
@@ -89,9 +92,10 @@ void write_labels(Output& output, const char* object, const std::vector<std::uin
 }
 
 void write_boundary(Output& output, const mesh::PolyhedralMesh& mesh) {
+    const std::map<std::string, std::string> words = words_of(mesh);
     begin(output, "polyBoundaryMesh", "boundary");
     write_list(output, mesh.patches, [&](const mesh::PolyhedralMesh::Patch& patch) {
-        output.append("    " + word(patch.name) +
+        output.append("    " + words.at(patch.name) +
                       "\n    {\n        type            patch;\n        nFaces          " +
                       std::to_string(patch.faces) + ";\n        startFace       " +
                       std::to_string(patch.first_face) + ";\n    }");
@@ -99,9 +103,10 @@ void write_boundary(Output& output, const mesh::PolyhedralMesh& mesh) {
 }
 
 void write_zones(Output& output, const mesh::PolyhedralMesh& mesh) {
+    const std::map<std::string, std::string> words = words_of(mesh);
     begin(output, "regIOobject", "cellZones");
     write_list(output, mesh.zones, [&](const mesh::PolyhedralMesh::Zone& zone) {
-        output.append(word(zone.name) + "\n{\n    type cellZone;\n    cellLabels      List<label>\n");
+        output.append(words.at(zone.name) + "\n{\n    type cellZone;\n    cellLabels      List<label>\n");
         write_list(output, zone.cells,
                    [&](std::uint32_t cell) { output.append_number(std::uint64_t{cell}); });
         output.append(";\n}");

@@ -29,15 +29,4 @@ Materials materials_of(const HexMesh& mesh) {
     return materials;
 }
 
-std::string material_name(std::span<const SolidIndex> solids, std::span<const std::string> names,
-                          const std::string& joint) {
-    if (solids.empty()) return "outside";
-    std::string name;
-    for (const SolidIndex solid : solids) {
-        if (!name.empty()) name += joint;
-        name += solid < names.size() ? names[solid] : "solid_" + std::to_string(solid);
-    }
-    return name;
-}
-
 }  // namespace octavo::mesh

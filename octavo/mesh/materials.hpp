@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <string>
 #include <vector>
 
 #include <octavo/mesh/hex_mesh.hpp>
@@ -21,10 +19,5 @@ struct Materials {
 };
 
 Materials materials_of(const HexMesh& mesh);
-
-/// "a", or "a" + `joint` + "b" for cells of several solids; "outside" for none. Solids without a name in `names` are
-/// called solid_0, solid_1, …
-std::string material_name(std::span<const SolidIndex> solids, std::span<const std::string> names,
-                          const std::string& joint);
 
 }  // namespace octavo::mesh

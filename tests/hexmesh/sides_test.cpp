@@ -8,7 +8,7 @@
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/to_polyhedra.hpp>
 #include <octavo/mesh/hex_sides.hpp>
-#include <octavo/mesh/materials.hpp>
+#include <octavo/mesh/material_names.hpp>
 #include <octavo/mesh/shapes.hpp>
 
 namespace octavo::hexmesh {
@@ -73,8 +73,9 @@ TEST(Materials, JoinInsideAndBoundary) {
         EXPECT_EQ(materials.of(built->mesh, cell), x < 1 ? 0u : x < 2 ? 1u : 2u);
     }
     const std::string names[] = {"a"};
-    EXPECT_EQ(mesh::material_name(materials.solids[1], names, "+"), "a+solid_1");
-    EXPECT_EQ(mesh::material_name({}, names, "+"), "outside");
+    const mesh::MaterialNames named = mesh::name_materials(materials, names, {});
+    EXPECT_EQ(named.materials, (std::vector<std::string>{"a", "a+solid_1", "solid_1"}));
+    EXPECT_EQ(named.outside, "outside");
 }
 
 TEST(BuildKeepingHalf, GivesEachCellToWhoeverFillsHalfOfIt) {
