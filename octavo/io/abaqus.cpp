@@ -4,7 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -78,6 +78,20 @@ void write_elements(Output& output, const mesh::HexMesh& mesh, const mesh::Mater
     }
 }
 
+/// How far from the end of the mesh a node may be and still be there. A fitted node is drawn to the model's plane in
+/// floating point, from a surface whose corners may lie off it by rounding.
+double end_tolerance(const mesh::HexMesh& mesh) {
+    constexpr double part_of_shortest_edge = 1e-3;
+    double shortest = std::numeric_limits<double>::max();
+    for (const std::array<mesh::NodeIndex, 8>& corners : mesh.corners)
+        for (std::size_t corner = 0; corner < 8; ++corner)
+            for (const std::size_t along : {std::size_t{1}, std::size_t{2}, std::size_t{4}})
+                if (!(corner & along))
+                    shortest = std::min(shortest, length(mesh.position(corners[corner | along]) -
+                                                         mesh.position(corners[corner])));
+    return mesh.corners.empty() ? 0 : part_of_shortest_edge * shortest;
+}
+
 /// The nodes at the ends of the mesh along each axis that do not hang: what supports and loads are put on most.
 void write_end_sets(Output& output, const mesh::HexMesh& mesh) {
     std::vector<bool> hangs(mesh.node_count(), false);
@@ -85,12 +99,13 @@ void write_end_sets(Output& output, const mesh::HexMesh& mesh) {
     for (const mesh::FaceHangingNode& hanging : mesh.face_hanging) hangs[hanging.node] = true;
     Box3 bounds;
     for (mesh::NodeIndex node = 0; node < mesh.node_count(); ++node) bounds.add(mesh.position(node));
+    const double tolerance = end_tolerance(mesh);
     for (int axis = 0; axis < 3; ++axis)
         for (const bool high : {false, true}) {
             output.append("*NSET, NSET=" + std::string(1, "XYZ"[axis]) + (high ? "MAX\n" : "MIN\n"));
             const double end = high ? bounds.high[axis] : bounds.low[axis];
             for (mesh::NodeIndex node = 0; node < mesh.node_count(); ++node)
-                if (!hangs[node] && mesh.position(node)[axis] == end)
+                if (!hangs[node] && std::fabs(mesh.position(node)[axis] - end) <= tolerance)
                     append_count(output, node + std::uint64_t{1}), output.append(",\n");
         }
 }

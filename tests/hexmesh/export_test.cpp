@@ -265,6 +265,29 @@ TEST(WriteOpenFoam, GivesNoTwoZonesOrPatchesOneName) {
     }
 }
 
+TEST(WriteAbaqus, PutsNodesInTheEndSetsThatAreThereButForRounding) {
+    const mesh::Mesh solid = mesh::box({0.1, 0.2, 0.3}, {1.1, 1.2, 1.3});
+    Result<Built> built = build(std::span(&solid, 1), {.precision = 0.125, .largest = 0.125});
+    ASSERT_TRUE(built);
+    mesh::HexMesh mesh = built->mesh;
+    std::size_t at_end = 0;
+    Box3 bounds;
+    for (mesh::NodeIndex node = 0; node < mesh.node_count(); ++node) bounds.add(mesh.position(node));
+    for (mesh::NodeIndex node = 0; node < mesh.node_count(); ++node) {
+        Vec3& p = mesh.positions.emplace_back(mesh.lattice.to_world(mesh.nodes[node]));
+        if (p.x != bounds.low.x) continue;
+        p.x += at_end++ % 3 == 0 ? 1.6e-9 : 0;
+    }
+    const Folder folder;
+    ASSERT_TRUE(io::write_abaqus((folder / "m.inp").string(), mesh));
+    const std::string text = text_of(folder / "m.inp");
+    const std::size_t begin = text.find("NSET=XMIN\n") + 10, end = text.find('*', begin);
+    EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                  text.begin() + static_cast<std::ptrdiff_t>(end), '\n')),
+              at_end);
+    EXPECT_GT(at_end, 50u);
+}
+
 /// The nodes that hold the boundary of a mesh.
 std::set<mesh::NodeIndex> boundary_nodes(const mesh::HexMesh& mesh) {
     std::set<mesh::NodeIndex> boundary;
