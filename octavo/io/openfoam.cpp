@@ -125,6 +125,46 @@ Error trouble(const fs::path& path, const std::error_code& code) {
     return {ErrorCode::io, "cannot be written: " + code.message(), std::move(place)};
 }
 
+/// A folder that is written to, with those on the way to it. Unless it is moved to its place it is removed, and those that
+/// were made for it.
+class PartFolder {
+  public:
+    explicit PartFolder(fs::path path) : path_(std::move(path)) {
+        std::error_code ignored;
+        for (fs::path above = path_.parent_path(); !above.empty() && !fs::exists(above, ignored);
+             above = above.parent_path())
+            made_.push_back(above);
+    }
+    PartFolder(const PartFolder&) = delete;
+    PartFolder& operator=(const PartFolder&) = delete;
+    ~PartFolder() {
+        if (is_moved_) return;
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+        for (const fs::path& folder : made_)
+            fs::remove(folder, ignored);  // fails where others wrote meanwhile
+    }
+
+    const fs::path& path() const { return path_; }
+    std::error_code make() const {
+        std::error_code code;
+        fs::create_directories(path_, code);
+        return code;
+    }
+    std::error_code move_to(const fs::path& place) {
+        std::error_code code;
+        fs::remove_all(place, code);
+        if (!code) fs::rename(path_, place, code);
+        is_moved_ = !code;
+        return code;
+    }
+
+  private:
+    fs::path path_;
+    std::vector<fs::path> made_;  ///< from the innermost
+    bool is_moved_ = false;
+};
+
 }  // namespace
 
 Result<WriteReport> write_openfoam(const std::string& path, const mesh::PolyhedralMesh& mesh,
@@ -133,10 +173,8 @@ Result<WriteReport> write_openfoam(const std::string& path, const mesh::Polyhedr
         return Error{
             ErrorCode::unsupported, "an OpenFOAM mesh is a folder and cannot go to standard output", {}};
     const fs::path constant = fs::path(path) / "constant", final = constant / "polyMesh";
-    const fs::path part = constant / ("polyMesh." + std::to_string(::getpid()) + ".part");
-    std::error_code code;
-    fs::create_directories(part, code);
-    if (code) return trouble(part, code);
+    PartFolder part(constant / ("polyMesh." + std::to_string(::getpid()) + ".part"));
+    if (const std::error_code code = part.make()) return trouble(part.path(), code);
 
     WriteReport report;
     report.format = "openfoam";
@@ -150,11 +188,10 @@ Result<WriteReport> write_openfoam(const std::string& path, const mesh::Polyhedr
         {"cellZones", [&](Output& output) { write_zones(output, mesh); }},
         {"cellLevel", [&](Output& output) { write_levels(output, mesh); }},
     }};
-    std::error_code ignored;
     for (const auto& [name, write] : files) {
         const bool has_levels = mesh.cell_level.size() == mesh.cells;
         if (!has_levels && std::string_view(name) == "cellLevel") continue;
-        Result<Output> output = Output::to_file((part / name).string());
+        Result<Output> output = Output::to_file((part.path() / name).string());
         Status status = Done{};
         if (output) {
             write(*output);
@@ -164,17 +201,9 @@ Result<WriteReport> write_openfoam(const std::string& path, const mesh::Polyhedr
             status = output.error();
         }
         if (context.cancelled()) status = Context::cancelled_error();
-        if (!status) {
-            fs::remove_all(part, ignored);
-            return status.error();
-        }
+        if (!status) return status.error();
     }
-    fs::remove_all(final, code);
-    if (!code) fs::rename(part, final, code);
-    if (code) {
-        fs::remove_all(part, ignored);
-        return trouble(final, code);
-    }
+    if (const std::error_code code = part.move_to(final)) return trouble(final, code);
     return report;
 }
 

@@ -11,7 +11,7 @@
 // OpenFOAM's polyMesh: a folder with points, faces, owner, neighbour, boundary, cellZones and cellLevel, in ASCII.
 //
 // The folder constant/polyMesh of the case is written under another name and renamed when it is complete; a mesh that was
-// there is replaced. Names of patches and zones become words: what OpenFOAM does not allow turns into "_".
+// there is replaced. An error or cancellation leaves no folder that was not there. Names of patches and zones become words: what OpenFOAM does not allow turns into "_".
 
 namespace octavo::io {
 

@@ -166,7 +166,14 @@ TEST(WriteOpenFoam, LeavesNothingBehindWhenItIsCancelled) {
     const std::atomic<bool> cancel = true;
     EXPECT_FALSE(io::write_openfoam(folder.string(), to_polyhedra(graded_mesh().mesh),
                                     {.on_progress = {}, .cancel = &cancel}));
-    EXPECT_TRUE(fs::is_empty(folder / "constant"));
+    EXPECT_TRUE(fs::is_empty(folder.string()));
+    // Folders on the way are removed only when they were made for this.
+    fs::create_directories(folder / "kept/constant");
+    for (const char* path : {"kept", "new/case"})
+        EXPECT_FALSE(io::write_openfoam((folder / path).string(), to_polyhedra(graded_mesh().mesh),
+                                        {.on_progress = {}, .cancel = &cancel}));
+    EXPECT_TRUE(fs::is_empty(folder / "kept/constant"));
+    EXPECT_FALSE(fs::exists(folder / "new"));
 }
 
 TEST(WriteAbaqus, HasNoNumberLongerThanCalculixReads) {
