@@ -50,6 +50,7 @@ Result<std::vector<Vec3>> read_points(Session& session, const Context& context,
     Result<io::ReadPoints> read = session.timed(
         "read", [&] { return io::read_points(options.points, {options.points_format}, context); });
     if (!read) return std::move(read).error();
+    session.warn(read->warnings);
     const auto nowhere = std::count_if(read->points.begin(), read->points.end(), [](Vec3 p) {
         return std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z);
     });

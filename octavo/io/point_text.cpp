@@ -32,16 +32,15 @@ class PointTextReader {
     }
 
     Result<std::vector<Vec3>> read() {
-        bool is_first = true;
         for (scanner_.skip_space_and_comments(); !scanner_.at_end(); scanner_.skip_space_and_comments()) {
             split_line();
-            if (is_first) choose_separator();
-            if (!is_first || !read_names()) {
-                if (const std::optional<Error> trouble = read_point()) return *trouble;
-            }
-            is_first = false;
+            const bool is_first = width_ == 0;
+            if (is_first) begin_table();
+            const bool is_names = is_first && holds_names();
+            if (const std::optional<Error> trouble = is_names ? read_names() : read_point()) return *trouble;
             if (!pace_.goes_on(scanner_.remaining())) return Context::cancelled_error();
         }
+        if (points_.empty() && !is_named_) return Error{ErrorCode::bad_input, "has no points", {}};
         return std::move(points_);
     }
 
@@ -68,39 +67,48 @@ class PointTextReader {
             rest.remove_prefix(end + 1);
         }
     }
-    void choose_separator() {
+    /// The first line decides the separator and the number of columns.
+    void begin_table() {
         for (const char candidate : {';', ',', '\t'})
             if (line_.find(candidate) != std::string_view::npos) {
                 separator_ = candidate;
-                return split();
+                split();
+                break;
             }
+        width_ = fields_.size();
     }
 
-    /// Whether the line holds names instead of numbers; then finds x, y and z among them.
-    bool read_names() {
-        if (std::any_of(fields_.begin(), fields_.end(),
-                        [](std::string_view field) { return number_in(field).has_value(); }))
-            return false;
-        std::array<std::size_t, 3> columns{};
+    bool holds_names() const { return std::none_of(fields_.begin(), fields_.end(), starts_like_number); }
+
+    /// Finds x, y and z. Three columns of other names are taken as they come; which of more are meant, nobody knows.
+    std::optional<Error> read_names() {
+        int found = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const char name[] = {static_cast<char>('x' + axis), '\0'};
-            const auto is_named = [&](std::string_view field) { return equals_ignoring_case(field, name); };
-            const auto found = std::find_if(fields_.begin(), fields_.end(), is_named);
-            if (found == fields_.end()) return true;
-            columns[axis] = static_cast<std::size_t>(found - fields_.begin());
+            const auto is_axis = [&](std::string_view field) { return equals_ignoring_case(field, name); };
+            const auto column = std::find_if(fields_.begin(), fields_.end(), is_axis);
+            if (column == fields_.end()) continue;
+            columns_[axis] = static_cast<std::size_t>(column - fields_.begin());
+            ++found;
         }
-        columns_ = columns;
-        return true;
+        is_named_ = found == 3;
+        if (is_named_ || (found == 0 && width_ == 3)) return {};
+        return scanner_.error_at(line_.data(),
+                                 "expected columns named x, y and z, or three numbers, found \"" +
+                                     std::string(line_.substr(0, 32)) + '"');
     }
 
     std::optional<Error> read_point() {
+        if (width_ < 3)
+            return scanner_.error_at(line_.data(),
+                                     "a point needs 3 columns, this line has " + std::to_string(width_));
+        if (fields_.size() != width_)
+            return scanner_.error_at(line_.data(), "the first line has " + std::to_string(width_) +
+                                                       " columns, this line has " +
+                                                       std::to_string(fields_.size()));
         Vec3 point;
         for (int axis = 0; axis < 3; ++axis) {
             const std::size_t column = columns_[static_cast<std::size_t>(axis)];
-            if (column >= fields_.size())
-                return scanner_.error_at(line_.data(), "a point needs " + std::to_string(column + 1) +
-                                                           " columns, this line has " +
-                                                           std::to_string(fields_.size()));
             const std::optional<double> value = number_in(fields_[column]);
             if (!value)
                 return scanner_.error_at(
@@ -115,6 +123,8 @@ class PointTextReader {
     TextScanner scanner_;
     ReadingPace pace_;
     char separator_ = ' ';
+    std::size_t width_ = 0;  ///< columns of the first line; 0 before it
+    bool is_named_ = false;  ///< x, y and z are among the names
     std::array<std::size_t, 3> columns_{0, 1, 2};
     std::string_view line_;
     std::vector<std::string_view> fields_;

@@ -25,7 +25,7 @@ std::string sniffed(Bytes bytes) {
 
 Result<ReadPoints> named(Result<std::vector<Vec3>> points, const std::string& format) {
     if (!points) return std::move(points).error();
-    return ReadPoints{std::move(*points), format};
+    return ReadPoints{std::move(*points), format, {}};
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ Result<ReadPoints> read_points(Bytes bytes, const PointsOptions& options, const 
     if (format == "ply") {
         Result<FileMesh> file = read_ply(bytes, context, NonFinite::keep);
         if (!file) return std::move(file).error();
-        return ReadPoints{std::move(file->vertices), format};
+        return ReadPoints{std::move(file->vertices), format, std::move(file->warnings)};
     }
     return Error{
         ErrorCode::unsupported,

@@ -55,9 +55,7 @@ Result<std::vector<Affine>> read_poses(Bytes bytes, const Context& context) {
         if (context.cancelled()) return Context::cancelled_error();
         const char* const start = scanner.position();
         const std::vector<std::string_view> fields = fields_of(scanner.rest_of_line());
-        const bool is_names =
-            may_be_names && std::none_of(fields.begin(), fields.end(),
-                                         [](std::string_view field) { return number_in(field).has_value(); });
+        const bool is_names = may_be_names && std::none_of(fields.begin(), fields.end(), starts_like_number);
         may_be_names = false;
         if (is_names || fields.empty()) continue;
         numbers.clear();

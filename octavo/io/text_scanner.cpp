@@ -27,6 +27,13 @@ std::string TextScanner::quoted() const {
     return text + (word.size() > longest ? "…\"" : "\"");
 }
 
+bool starts_like_number(std::string_view text) {
+    if (text.empty()) return false;
+    if (std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos) return true;
+    const char* const last = text.data() + text.size();
+    return parse_number(text.data(), last).end == last;  // nan and inf, but not names that begin so
+}
+
 bool equals_ignoring_case(std::string_view text, std::string_view lower) {
     if (text.size() != lower.size()) return false;
     for (std::size_t i = 0; i < text.size(); ++i) {

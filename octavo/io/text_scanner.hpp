@@ -104,6 +104,9 @@ class TextScanner {
     const char* end_;
 };
 
+/// Whether `text` begins as numbers do, though it may be none ("1,5"): such a text is no name of a column.
+bool starts_like_number(std::string_view text);
+
 /// Whether `text` is `lower`, a word in lower case, in any case.
 bool equals_ignoring_case(std::string_view text, std::string_view lower);
 

@@ -32,8 +32,8 @@ TEST(PointText, ReadsAnySeparatorWithOrWithoutNames) {
     for (const char* text :
          {"1,2.5,-3e-5\n4,5,6\n", "1;2.5;-3e-5\n4;5;6", "1 2.5 -3e-5\n4  5\t6\n",
           "1\t2.5\t-3e-5\r\n4\t5\t6\r\n", "x,y,z\n1,2.5,-3e-5\n4,5,6\n", "a b c\n1 2.5 -3e-5\n4 5 6",
-          "# head\n\n 1 , 2.5 , -3e-5 # tail\n\n#\n4,5,6,7,8\n", "\xef\xbb\xbfx;y;z\n1;2.5;-3e-5\n4;5;6",
-          "\"x\",\"y\",\"z\"\n\"1\",\"2.5\",\"-3e-5\"\n4,5,6\n"})
+          "# head\n\n 1 , 2.5 , -3e-5 # tail\n\n#\n4,5,6\n", "1,2.5,-3e-5,7\n4,5,6,\n",
+          "\xef\xbb\xbfx;y;z\n1;2.5;-3e-5\n4;5;6", "\"x\",\"y\",\"z\"\n\"1\",\"2.5\",\"-3e-5\"\n4,5,6\n"})
         EXPECT_EQ(points_in(text), two_points) << text;
 }
 
@@ -51,8 +51,36 @@ TEST(PointText, KeepsNumbersThatAreNotFinite) {
 
 TEST(PointText, MayHoldNoPoints) { EXPECT_EQ(points_in("x,y,z\n"), Points{}); }
 
+TEST(PointText, NeverTakesNumbersForNames) {
+    // Decimal commas: what stands between semicolons is no number, but no name either.
+    expect_points_refused("0,1;0,1;0,1\n", 1, "found \"0,1\"");
+    expect_points_refused("# head\n0,1;0,2;0,3\n1;2;3\n", 2, "found \"0,1\"");
+    expect_points_refused("-1x 2x 3x\n1 2 3\n", 1, "found \"-1x\"");
+    expect_points_refused("x;.5.;z\n1;2;3\n", 1, "found \"x\"");
+    EXPECT_EQ(points_in("infeed nanometres y0\n1 2.5 -3e-5\n4 5 6\n"), two_points);
+}
+
+TEST(PointText, RefusesNamesThatDoNotSayWhichColumnsAreMeant) {
+    expect_points_refused("id,lon,lat,height\n7,1,2,3\n", 1, "columns named x, y and z");
+    expect_points_refused("id,x,y\n7,1,2\n", 1, "found \"id,x,y\"");
+    expect_points_refused("x,y\n1,2\n", 1, "columns named x, y and z");
+    expect_points_refused("hello\n", 1, "columns named x, y and z");
+}
+
+TEST(PointText, RefusesFilesWithoutAnyLineAsEmpty) {
+    for (const char* text : {"\n", " \n\t\r\n", "# only a comment\n", "\xef\xbb\xbf\n", "these are words\n"})
+        expect_points_refused(text, 0, "has no points");
+}
+
+TEST(PointText, RefusesLinesOfOtherColumnsThanTheFirst) {
+    expect_points_refused("x,y,z\n1,2,3\n4,5,6,7\n", 3, "the first line has 3 columns, this line has 4");
+    expect_points_refused("x,y,z,w\n1,2,3\n", 2, "the first line has 4 columns, this line has 3");
+    expect_points_refused("1 2 3\n4 5 6 7\n", 2, "this line has 4");
+}
+
 TEST(PointText, NamesTheLineOfWhatIsWrong) {
     expect_points_refused("1,2,3\n4,5\n", 2, "has 2");
+    expect_points_refused("1,2\n4,5\n", 1, "needs 3 columns, this line has 2");
     expect_points_refused("x,y,z\n1,2,3\n4,five,6\n", 3, "found \"five\"");
     expect_points_refused("1;2,5;3\n", 1, "found \"2,5\"");
     expect_points_refused("1,2,3\n\n4,,6\n", 3, "found \"\"");

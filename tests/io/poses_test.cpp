@@ -25,6 +25,10 @@ TEST(Poses, ErrorsNameTheLine) {
         EXPECT_EQ(poses.error().code, ErrorCode::bad_input);
         EXPECT_EQ(poses.error().place.line, 2U);
     }
+    // What begins like a number is no name.
+    const Result<std::vector<Affine>> dots = read_poses(bytes_of("1.2.3 4.5.6 7.8.9\n1 2 3\n"));
+    ASSERT_FALSE(dots);
+    EXPECT_EQ(dots.error().place.line, 1U);
     EXPECT_FALSE(read_poses(bytes_of("")));
     EXPECT_FALSE(read_poses(bytes_of("# nothing\n")));
     EXPECT_FALSE(read_poses(std::string("/nowhere/poses.csv")));
