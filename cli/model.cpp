@@ -183,6 +183,23 @@ Result<bp_octree::ReadBpo> read_bp_octree(Session& session, const Context& conte
     return read;
 }
 
+void warn_of_losses(Session& session, const io::ReadMesh& read, const std::string& format) {
+    const std::size_t kinds = read.left_behind.size();
+    std::string list;
+    for (std::size_t i = 0; i < kinds; ++i) {
+        if (i > 0) list += i + 1 == kinds ? " and " : ", ";
+        list += read.left_behind[i];
+    }
+    if (kinds > 0) session.warn("not kept: " + list);
+    if (read.triangulated > 0)
+        session.warn(fmt::format("{} polygon{} became {} triangles", grouped(read.triangulated),
+                                 read.triangulated == 1 ? "" : "s",
+                                 grouped(read.mesh.triangles.size() - (read.polygons - read.triangulated))));
+    // Files that state no unit are taken for millimetres, here and elsewhere.
+    if (!read.unit.empty() && read.unit != "millimeter" && format != "3mf")
+        session.warn(fmt::format("the unit is not kept: {}; {} states none", read.unit, format));
+}
+
 Result<io::WriteReport> write_mesh(Session& session, const Context& context, const std::string& path,
                                    const mesh::Mesh& mesh, const io::WriteOptions& options) {
     if (path == "-") session.stdout_taken = true;

@@ -55,6 +55,9 @@ Result<octree::Octree> read_octree(Session& session, const Context& context, con
 Result<bp_octree::ReadBpo> read_bp_octree(Session& session, const Context& context, const std::string& path,
                                           const bp_octree::ReadBpoOptions& options = {});
 
+/// Warns of what a mesh that was read loses when it is written in `format`: kinds of data, polygons, the unit.
+void warn_of_losses(Session& session, const io::ReadMesh& read, const std::string& format);
+
 /// Writes a mesh; `path` "-" takes stdout over.
 Result<io::WriteReport> write_mesh(Session& session, const Context& context, const std::string& path,
                                    const mesh::Mesh& mesh, const io::WriteOptions& options = {});

@@ -74,6 +74,7 @@ Result<ExitCode> convert_surface(Session& session, const Context& context, const
     }
     Result<io::WriteReport> report = write_mesh(session, context, options.output, read->mesh, writing);
     if (!report) return std::move(report).error();
+    warn_of_losses(session, *read, report->format);
     session.result = {{"vertices", read->mesh.vertices.size()},
                       {"triangles", read->mesh.triangles.size()},
                       {"format", report->format},

@@ -47,6 +47,7 @@ Result<ExitCode> repair(Session& session, const RepairOptions& options) {
     if (!read->unit.empty()) writing.unit = read->unit;
     Result<io::WriteReport> written = write_mesh(session, context, options.output, repaired->mesh, writing);
     if (!written) return std::move(written).error();
+    warn_of_losses(session, *read, *format);
 
     session.result = json_of(*after);
     session.result["repairs"] = steps_of(repaired->report, *read);

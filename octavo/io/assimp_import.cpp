@@ -41,12 +41,30 @@ class SceneReader {
             for (unsigned i = node->mNumChildren; i-- > 0;)
                 waiting.emplace_back(node->mChildren[i], transform);
         }
+        note_what_is_left_behind();
         result_.vertices = welder_.vertices();
         result_.warnings.push_back("read through assimp, which rounds coordinates to floats");
         return std::move(result_);
     }
 
   private:
+    void note_what_is_left_behind() {
+        for (unsigned i = 0; i < scene_.mNumMeshes; ++i) {
+            const aiMesh& mesh = *scene_.mMeshes[i];
+            if (mesh.HasNormals()) result_.leave_behind("normals");
+            if (mesh.HasTextureCoords(0)) result_.leave_behind("texture coordinates");
+            if (mesh.HasVertexColors(0)) result_.leave_behind("colours");
+            if (mesh.HasBones()) result_.leave_behind("bones");
+        }
+        if (scene_.mNumMeshes > 1) result_.leave_behind("objects");
+        // Where a file has no material, assimp adds one of its own.
+        if (scene_.mNumMaterials > 1) result_.leave_behind("materials");
+        if (scene_.HasTextures()) result_.leave_behind("textures");
+        if (scene_.HasAnimations()) result_.leave_behind("animations");
+        if (scene_.HasCameras()) result_.leave_behind("cameras");
+        if (scene_.HasLights()) result_.leave_behind("lights");
+    }
+
     std::optional<Error> add(const aiMesh& mesh, const Affine& transform) {
         if (context_.cancelled()) return Context::cancelled_error();
         faces_ += mesh.mNumFaces;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <octavo/base/context.hpp>
@@ -18,7 +20,18 @@ struct FileMesh {
     std::vector<std::string> warnings;
     std::string unit;                 ///< name of the unit of length, when the file states one
     double millimetres_per_unit = 0;  ///< 0 when it does not
+
+    /// Kinds of data that the file holds and a mesh has no place for, like "normals"; each once.
+    std::vector<std::string> left_behind;
+
+    void leave_behind(std::string_view kind) {
+        if (std::find(left_behind.begin(), left_behind.end(), kind) == left_behind.end())
+            left_behind.emplace_back(kind);
+    }
 };
+
+/// The comment in the files that we write ourselves; that it is left behind is not worth a word.
+inline constexpr std::string_view own_comment = "written by Octavo";
 
 /// Tells the Context now and then how far a reader is, and learns whether to go on.
 class ReadingPace {

@@ -27,6 +27,8 @@ class ObjReader {
                 error = read_face();
             } else if (keyword == "curv" || keyword == "surf") {
                 ++free_form_;
+            } else {
+                note_what_is_left_behind(keyword);
             }
             if (error) return *error;
             skip_line();
@@ -70,6 +72,43 @@ class ObjReader {
         }
     }
 
+    void note_what_is_left_behind(std::string_view keyword) {
+        struct Statement {
+            std::string_view keyword, kind;
+        };
+        static constexpr Statement statements[] = {{"vn", "normals"},
+                                                   {"vt", "texture coordinates"},
+                                                   {"mtllib", "materials"},
+                                                   {"usemtl", "materials"},
+                                                   {"o", "objects"},
+                                                   {"g", "groups"},
+                                                   {"s", "smoothing groups"},
+                                                   {"l", "lines"},
+                                                   {"p", "points"}};
+        TextScanner ahead = scanner_;
+        if (keyword.front() == '#') {
+            if (keyword != "#" || ahead.rest_of_line() != own_comment) result_.leave_behind("comments");
+            return;
+        }
+        if (keyword == "s") {
+            const std::string_view group = ahead.rest_of_line();
+            if (group == "off" || group == "0") return;
+        }
+        for (const Statement& statement : statements)
+            if (statement.keyword == keyword) return result_.leave_behind(statement.kind);
+        result_.leave_behind("other statements");
+    }
+
+    /// Behind the coordinates: one number is a weight, three are a colour.
+    void note_more_numbers() {
+        skip_blanks();
+        if (scanner_.at_line_end() || scanner_.peek() == '#') return;
+        TextScanner rest = scanner_;
+        rest.word();
+        rest.skip_blanks();
+        result_.leave_behind(rest.at_line_end() ? "weights" : "colours");
+    }
+
     std::optional<Error> read_vertex() {
         Vec3 point;
         for (int axis = 0; axis < 3; ++axis) {
@@ -85,6 +124,7 @@ class ObjReader {
         if (result_.vertices.size() == 0xffffffffu)
             return Error{ErrorCode::limit, "has more than 4294967295 vertices", {}};
         result_.vertices.push_back(point);
+        note_more_numbers();
         return {};
     }
 
@@ -139,7 +179,7 @@ Result<FileMesh> read_obj(Bytes bytes, const Context& context) {
 }
 
 Result<WriteReport> write_obj(Output& output, const mesh::Mesh& mesh, const WriteOptions&) {
-    output.append("# written by Octavo\n");
+    output.append("# " + std::string(own_comment) + '\n');
     for (const Vec3& vertex : mesh.vertices) {
         output.append('v');
         for (int axis = 0; axis < 3; ++axis) output.append(' '), output.append_number(vertex[axis]);

@@ -38,6 +38,17 @@ std::optional<HeaderWord> header_word(std::string_view word) {
     return HeaderWord{variant, word.size() - rest.size()};
 }
 
+/// Notes what files of this variant hold beside vertices and faces.
+void note_what_is_left_behind(const Variant& variant, FileMesh& file) {
+    if (variant.normal) file.leave_behind("normals");
+    if (variant.colour) file.leave_behind("colours");
+    if (variant.texture) file.leave_behind("texture coordinates");
+}
+
+std::string ignored_bytes(std::size_t count) {
+    return std::to_string(count) + " bytes after the last announced face are ignored";
+}
+
 Error not_three_dimensional() {
     return {ErrorCode::unsupported, "has vertices that are not of three dimensions", {}};
 }
@@ -81,6 +92,9 @@ class TextReader {
             if (const std::optional<Error> error = read_face(i)) return *error;
             if (!pace_.goes_on(scanner_.remaining())) return Context::cancelled_error();
         }
+        scanner_.skip_space_and_comments();
+        if (!scanner_.at_end()) result_.warnings.push_back(ignored_bytes(scanner_.remaining()));
+        note_what_is_left_behind(variant_, result_);
         return std::move(result_);
     }
 
@@ -91,6 +105,12 @@ class TextReader {
     }
     Error expected(const char* what) {
         return scanner_.error_here("expected " + std::string(what) + ", found " + scanner_.quoted());
+    }
+
+    /// Whether something other than a comment follows in this line.
+    bool more_in_line() {
+        scanner_.skip_blanks();
+        return !scanner_.at_line_end() && scanner_.peek() != '#';
     }
 
     std::optional<Error> read_vertex() {
@@ -114,6 +134,8 @@ class TextReader {
                 return error;
             }
         }
+        const bool announced = variant_.normal || variant_.colour || variant_.texture;
+        if (!announced && more_in_line()) result_.leave_behind("numbers behind coordinates");
         scanner_.skip_line();
         result_.vertices.push_back(point);
         return {};
@@ -136,6 +158,7 @@ class TextReader {
                     before, bad_index(face, std::to_string(*index), result_.vertices.size()).sentence);
             corners_.push_back(static_cast<mesh::VertexIndex>(*index));
         }
+        if (more_in_line()) result_.leave_behind("colours");
         scanner_.skip_line();
         result_.faces.add(corners_);
         return {};
@@ -177,6 +200,8 @@ class BinaryReader {
             if (const std::optional<Error> trouble = read_face(i)) return *trouble;
             if (!pace_.goes_on(bytes_.size() - at_)) return Context::cancelled_error();
         }
+        if (at_ < bytes_.size()) result_.warnings.push_back(ignored_bytes(bytes_.size() - at_));
+        note_what_is_left_behind(variant_, result_);
         return std::move(result_);
     }
 
@@ -196,6 +221,7 @@ class BinaryReader {
         const std::uint32_t colours = integer();
         if (colours > words()) return ends_early();
         at_ += std::size_t{4} * colours;
+        if (colours > 0) result_.leave_behind("colours");
         result_.faces.add(corners_);
         return {};
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <octavo/io/file_mesh.hpp>
 #include <octavo/io/ply_header.hpp>
 #include <octavo/io/text_scanner.hpp>
 
@@ -48,7 +49,9 @@ class HeaderReader {
                 trouble = read_element();
             } else if (keyword == "property") {
                 trouble = read_property();
-            } else if (keyword != "comment" && keyword != "obj_info") {
+            } else if (keyword == "comment" || keyword == "obj_info") {
+                if (scanner_.rest_of_line() != own_comment) header_.has_comments = true;
+            } else {
                 scanner_.go_to(line_);
                 return error("the header holds the unknown word " + scanner_.quoted());
             }

@@ -42,6 +42,7 @@ struct PlyHeader {
     PlyEncoding encoding{};
     std::vector<PlyElement> elements;
     std::size_t size = 0;  ///< where the body begins
+    bool has_comments = false;
 
     const PlyElement* element(std::string_view name) const;
 };

@@ -33,6 +33,11 @@ class TextValues {
     }
     bool has_room(std::uint64_t values, PlyType) const { return values <= (scanner_.remaining() + 1) / 2; }
     std::size_t remaining() const { return scanner_.remaining(); }
+    /// Bytes after the last value, less the space before them.
+    std::size_t unread() {
+        scanner_.skip_space();
+        return scanner_.remaining();
+    }
     /// An error about the value read last, and one about what follows.
     Error error(std::string sentence) const { return scanner_.error_at(last_, std::move(sentence)); }
     Error error_here(std::string sentence) { return scanner_.error_here(std::move(sentence)); }
@@ -89,6 +94,7 @@ class BinaryValues {
     }
     bool has_room(std::uint64_t values, PlyType type) const { return values <= remaining() / size_of(type); }
     std::size_t remaining() const { return bytes_.size() - at_; }
+    std::size_t unread() const { return remaining(); }
     Error error(std::string sentence) const { return error_at(last_, std::move(sentence)); }
     Error error_here(std::string sentence) const { return error_at(at_, std::move(sentence)); }
     Error missing() const {
@@ -117,6 +123,33 @@ class BinaryValues {
 /// What a row of an element gives.
 enum class Role { vertex, face, strip, other };
 
+Role role_of(const PlyElement& element) {
+    if (element.name == "vertex") return Role::vertex;
+    if (element.name == "face") return Role::face;
+    return element.name == "tristrips" ? Role::strip : Role::other;
+}
+
+bool lists_corners(const PlyProperty& property) {
+    return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+/// What a mesh does not hold of an element in this role: the kind of data, empty for what it does hold.
+std::string_view kind_left_behind(Role role, const PlyProperty& property) {
+    const auto is_among = [&](std::initializer_list<std::string_view> names) {
+        return std::find(names.begin(), names.end(), property.name) != names.end();
+    };
+    if (role == Role::other) return {};
+    if (role == Role::vertex && !property.count_type && is_among({"x", "y", "z"})) return {};
+    if (role != Role::vertex && lists_corners(property)) return {};
+    if (is_among({"nx", "ny", "nz"})) return "normals";
+    if (is_among({"red", "green", "blue", "alpha", "r", "g", "b", "a", "diffuse_red", "diffuse_green",
+                  "diffuse_blue"}))
+        return "colours";
+    if (is_among({"s", "t", "u", "v", "texture_u", "texture_v", "texcoord", "texnumber"}))
+        return "texture coordinates";
+    return role == Role::vertex ? "other properties of vertices" : "other properties of faces";
+}
+
 template <class Values>
 class BodyReader {
   public:
@@ -138,16 +171,32 @@ class BodyReader {
                                           ", more than the rest of the file can hold");
             if (const std::optional<Error> error = read_element(element)) return *error;
         }
+        if (const std::size_t unread = values_.unread(); unread > 0)
+            result_.warnings.push_back(std::to_string(unread) +
+                                       " bytes after the last announced element are ignored");
+        note_what_is_left_behind();
         return std::move(result_);
     }
 
   private:
+    void note_what_is_left_behind() {
+        for (const PlyElement& element : header_.elements) {
+            if (element.count == 0 || element.properties.empty()) continue;
+            const Role role = role_of(element);
+            if (role == Role::other) result_.leave_behind("other elements");
+            if (role == Role::strip) result_.leave_behind("triangle strips");
+            for (const PlyProperty& property : element.properties)
+                if (const std::string_view kind = kind_left_behind(role, property); !kind.empty())
+                    result_.leave_behind(kind);
+        }
+        if (header_.has_comments) result_.leave_behind("comments");
+    }
+
     std::optional<Error> read_element(const PlyElement& element) {
-        Role role = Role::other;
+        const Role role = role_of(element);
         axis_of_.assign(element.properties.size(), -1);
         list_ = element.properties.size();
-        if (element.name == "vertex") {
-            role = Role::vertex;
+        if (role == Role::vertex) {
             for (int axis = 0; axis < 3; ++axis) {
                 const char name[] = {static_cast<char>('x' + axis), '\0'};
                 const std::optional<std::size_t> property = element.scalar(name);
@@ -156,12 +205,9 @@ class BodyReader {
                 axis_of_[*property] = axis;
             }
             result_.vertices.reserve(element.count);
-        } else if (element.name == "face" || element.name == "tristrips") {
-            role = element.name == "face" ? Role::face : Role::strip;
+        } else if (role != Role::other) {
             for (std::size_t i = 0; i < element.properties.size(); ++i)
-                if (element.properties[i].count_type && (element.properties[i].name == "vertex_indices" ||
-                                                         element.properties[i].name == "vertex_index"))
-                    list_ = i;
+                if (lists_corners(element.properties[i])) list_ = i;
             if (list_ == element.properties.size())
                 return values_.error_here("the element " + element.name + " has no list vertex_indices");
             if (role == Role::face) result_.faces.reserve_triangles(element.count);

@@ -46,7 +46,7 @@ Result<WriteReport> write_ply(Output& output, const mesh::Mesh& mesh, const Writ
     const char* const index = mesh.vertices.size() > 0x80000000u ? "uint" : "int";
     output.append(options.encoding == Encoding::ascii ? "ply\nformat ascii 1.0\n"
                                                       : "ply\nformat binary_little_endian 1.0\n");
-    output.append("comment written by Octavo\nelement vertex ");
+    output.append("comment " + std::string(own_comment) + "\nelement vertex ");
     output.append_number(std::uint64_t{mesh.vertices.size()});
     for (const char* const axis : {"x", "y", "z"}) {
         output.append(std::string("\nproperty ") + real + ' ' + axis);

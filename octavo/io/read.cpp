@@ -113,6 +113,7 @@ Result<ReadMesh> to_mesh(Found found, const Context& context) {
     ReadMesh result;
     result.format = std::move(found.format);
     result.warnings = remarks(found.file);
+    result.left_behind = std::move(found.file.left_behind);
     result.unit = std::move(found.file.unit);
     result.millimetres_per_unit = found.file.millimetres_per_unit;
     result.polygons = faces.size();

@@ -37,6 +37,9 @@ struct ReadMesh {
     std::vector<std::uint32_t> polygon_of_triangle;
     std::string unit;                 ///< unit of length, when the file states one; coordinates are as stored
     double millimetres_per_unit = 0;  ///< 0 when it does not
+    /// Kinds of data that the file holds and a mesh does not: "normals", "materials", "groups", … Who only asks about
+    /// the shape misses nothing; who writes it again loses them.
+    std::vector<std::string> left_behind;
 };
 
 /// Polygons as the file has them, for formats that carry them (OBJ, PLY, OFF); triangles otherwise.

@@ -41,6 +41,7 @@ Result<FileMesh> read_binary(Bytes bytes, std::size_t facets, const Context& con
     ReadingPace pace(context, bytes.size());
     std::vector<mesh::Triangle>& triangles = result.faces.triangles();
     triangles.resize(facets);
+    unsigned attributes = 0;
     for (std::size_t first = 0; first < facets; first += block) {
         const std::size_t count = std::min(block, facets - first);
         VertexWelder<float>::Key keys[3 * block];
@@ -54,8 +55,11 @@ Result<FileMesh> read_binary(Bytes bytes, std::size_t facets, const Context& con
         for (std::size_t i = 0; i < count; ++i)
             triangles[first + i] = {welder.add(keys[3 * i]), welder.add(keys[3 * i + 1]),
                                     welder.add(keys[3 * i + 2])};
+        for (std::size_t i = 0; i < count; ++i)
+            attributes |= load<std::uint16_t>(bytes.data() + header_size + (first + i + 1) * facet_size - 2);
         if (!pace.goes_on(bytes.size() - header_size - first * facet_size)) return Context::cancelled_error();
     }
+    if (attributes != 0) result.leave_behind("attribute bytes");
     result.vertices = welder.vertices();
     return result;
 }
@@ -79,7 +83,10 @@ Result<FileMesh> read_binary(Bytes bytes, const Context& context) {
 
 // ---- text
 
-/// The grammar: any number of `solid NAME`, facets, `endsolid NAME`, each NAME to the end of its line.
+constexpr std::string_view own_name = "octavo";  ///< of the solids that we write
+
+/// The grammar: any number of `solid NAME`, facets, `endsolid NAME`, each NAME to the end of its line. Some writers put
+/// everything on one line: there a NAME goes to the next facet.
 class TextReader {
   public:
     TextReader(std::string_view text, const Context& context)
@@ -87,7 +94,7 @@ class TextReader {
 
     Result<FileMesh> read() {
         if (!is("solid")) return unexpected("solid");
-        scanner_.skip_line();
+        read_name();
         bool inside = true;
         for (std::size_t facets = 0;;) {
             const std::string_view word = scanner_.word();
@@ -95,10 +102,12 @@ class TextReader {
             if (equals_ignoring_case(word, "facet")) {
                 if (++facets > most_facets) return too_many_facets();
                 if (const std::optional<Error> error = read_facet()) return *error;
+                inside = true;
                 if (!pace_.goes_on(scanner_.remaining())) return Context::cancelled_error();
             } else if (equals_ignoring_case(word, "endsolid") || equals_ignoring_case(word, "solid")) {
                 inside = word.size() == 5;
-                scanner_.skip_line();
+                if (inside) result_.leave_behind("solids");
+                read_name();
             } else {
                 scanner_.go_to(word.data());
                 return unexpected("facet");
@@ -110,6 +119,25 @@ class TextReader {
     }
 
   private:
+    void read_name() {
+        TextScanner name = scanner_;
+        for (name.skip_blanks(); !name.at_line_end(); name.skip_blanks()) {
+            const std::string_view word = name.word();
+            if (equals_ignoring_case(word, "facet") && facet_goes_on(name))
+                return scanner_.go_to(word.data());
+            // The name itself comes twice in most files and once in all.
+            if (word != own_name) result_.leave_behind("names of solids");
+        }
+        scanner_.skip_line();
+    }
+
+    /// Whether `normal X Y Z outer loop` follows.
+    static bool facet_goes_on(TextScanner ahead) {
+        if (!equals_ignoring_case(ahead.word(), "normal")) return false;
+        for (int i = 0; i < 3; ++i) ahead.word();
+        return equals_ignoring_case(ahead.word(), "outer") && equals_ignoring_case(ahead.word(), "loop");
+    }
+
     /// After the word `facet`: `normal X Y Z outer loop` three vertices `endloop endfacet`. The normal may
     /// be anything, nan too.
     std::optional<Error> read_facet() {
@@ -231,7 +259,7 @@ void write_text(Output& output, const mesh::Mesh& mesh) {
         for (int axis = 0; axis < 3; ++axis) output.append(' '), output.append_number(v[axis]);
         output.append('\n');
     };
-    output.append("solid octavo\n");
+    output.append("solid " + std::string(own_name) + '\n');
     for (const mesh::Triangle& triangle : mesh.triangles) {
         output.append("facet normal");
         append_vector(normal_of(mesh, triangle));
@@ -242,7 +270,7 @@ void write_text(Output& output, const mesh::Mesh& mesh) {
         }
         output.append(" endloop\nendfacet\n");
     }
-    output.append("endsolid octavo\n");
+    output.append("endsolid " + std::string(own_name) + '\n');
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ class Assembler {
         }
         if (supports_ > 0)
             result_.warnings.push_back(std::to_string(supports_) + " support structures are left out");
+        note_what_is_left_behind();
         return std::move(result_);
     }
 
@@ -69,6 +70,15 @@ class Assembler {
         std::uint64_t triangles = 0, vertices = 0;  ///< with all components, saturated
         bool complete = false;
     };
+
+    void note_what_is_left_behind() {
+        if (meshes_ > 1) result_.leave_behind("objects");
+        for (const auto& [name, part] : parts_)
+            for (const std::string_view kind : part.left_behind) result_.leave_behind(kind);
+        for (const ZipEntry& entry : archive_.entries())
+            for (const char* extension : {".png", ".jpg", ".jpeg"})
+                if (entry.name.ends_with(extension)) result_.leave_behind("pictures");
+    }
 
     Error more_than_allowed(const char* what) const {
         return {ErrorCode::limit, "has more than " + std::to_string(options_.max_triangles) + " " + what, {}};
@@ -140,6 +150,7 @@ class Assembler {
         const std::size_t first = result_.vertices.size();
         if (first + object.data->vertices.size() > std::numeric_limits<mesh::VertexIndex>::max())
             return Error{ErrorCode::limit, "has more than 4294967295 vertices", {}};
+        meshes_ += !object.data->triangles.empty();
         const bool stays = transform == Affine{};
         for (const Vec3& vertex : object.data->vertices) {
             const Vec3 point = stays ? vertex : transform(vertex);
@@ -181,7 +192,7 @@ class Assembler {
     std::map<std::string, ThreeMfPart> parts_;
     std::map<std::pair<std::string, std::uint32_t>, Object> objects_;
     std::uint64_t triangles_ = 0, vertices_ = 0;
-    std::size_t supports_ = 0;
+    std::size_t supports_ = 0, meshes_ = 0;  ///< left out, and put into place
     FileMesh result_;
 };
 

@@ -47,9 +47,13 @@ class PartReader {
         if (millimetres_in(part_.unit) == 0)
             return error(model.offset_debug(), "has an unknown unit of length");
         if (std::optional<Error> trouble = check_extensions(model)) return *trouble;
+        note_metadata(model);
         for (pugi::xml_node node = child(model, "resources").first_child(); node;
              node = node.next_sibling()) {
-            if (local_name(node.name()) != "object") continue;
+            if (local_name(node.name()) != "object") {
+                part_.left_behind.insert(kind_of_resource(local_name(node.name())));
+                continue;
+            }
             if (std::optional<Error> trouble = read_object(node)) return *trouble;
         }
         for (pugi::xml_node node = child(model, "build").first_child(); node; node = node.next_sibling()) {
@@ -84,6 +88,34 @@ class PartReader {
         return {};
     }
 
+    static std::string_view kind_of_resource(std::string_view name) {
+        if (name.starts_with("texture2d")) return "textures";
+        if (name == "slicestack") return "slices";
+        for (const char* material : {"basematerials", "colorgroup", "compositematerials", "multiproperties"})
+            if (name == material) return "materials";
+        return "other resources";
+    }
+
+    /// Every writer names itself as the application, we too.
+    void note_metadata(pugi::xml_node model) {
+        for (pugi::xml_node node = model.first_child(); node; node = node.next_sibling())
+            if (local_name(node.name()) == "metadata" &&
+                std::string_view(node.attribute("name").value()) != "Application")
+                part_.left_behind.insert("metadata");
+    }
+
+    void note_what_is_left_behind(pugi::xml_node object) {
+        if (attribute(object, "name") || attribute(object, "partnumber"))
+            part_.left_behind.insert("names of objects");
+        if (child(object, "metadatagroup")) part_.left_behind.insert("metadata");
+        const pugi::xml_node mesh = child(object, "mesh");
+        for (pugi::xml_node node = mesh.first_child(); node; node = node.next_sibling()) {
+            const std::string_view name = local_name(node.name());
+            if (name == "vertices" || name == "triangles") continue;
+            part_.left_behind.insert(name == "beamlattice" ? "beam lattices" : "other data of meshes");
+        }
+    }
+
     std::optional<std::uint32_t> index(pugi::xml_node node, const char* name) const {
         TextScanner scanner(attribute(node, name).value());
         const std::optional<std::uint64_t> value = scanner.count();
@@ -97,6 +129,7 @@ class PartReader {
         const std::optional<std::uint32_t> id = index(node, "id");
         if (!id) return error(node.offset_debug(), "has an object without an id");
         object.id = *id;
+        note_what_is_left_behind(node);
         object.type = attribute(node, "type") ? attribute(node, "type").value() : "model";
         if (const pugi::xml_node mesh = child(node, "mesh")) {
             if (std::optional<Error> trouble = read_mesh(mesh, object)) return trouble;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -37,6 +38,7 @@ struct ThreeMfPart {
     std::vector<ThreeMfObject> objects;
     std::vector<ThreeMfPlacement> build;
     std::unordered_map<std::uint32_t, std::size_t> object_of_id;  ///< the first, when several have one id
+    std::set<std::string_view> left_behind;  ///< kinds of data that are not read; texts that live for ever
 
     /// The object of that id; nullptr when there is none.
     const ThreeMfObject* find(std::uint32_t id) const {

@@ -383,5 +383,32 @@ TEST_F(Verbs, ConvertKeepsEveryDouble) {
     EXPECT_EQ(read("a.ply"), read("e.ply"));
 }
 
+TEST_F(Verbs, ConvertAndRepairTellWhatIsNotKept) {
+    write("tetrahedron.obj",
+          "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\ng side\n"
+          "f 1/1 3/1 2/1\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    const json kinds = json::array({"not kept: materials, texture coordinates and groups"});
+    EXPECT_EQ(octavo("convert tetrahedron.obj out.stl --json").json()["warnings"], kinds);
+    EXPECT_EQ(octavo("repair tetrahedron.obj -o out.stl --json").json()["warnings"], kinds);
+    // Who only asks loses nothing.
+    EXPECT_EQ(octavo("check tetrahedron.obj --json").json()["warnings"], json::array());
+    write("open.off", open_cube);
+    EXPECT_EQ(octavo("convert open.off out.off --json").json()["warnings"],
+              json::array({"5 polygons became 10 triangles"}));
+    ASSERT_EQ(octavo("convert tetrahedron.obj inches.3mf --unit inch").exit_code, 0);
+    EXPECT_EQ(octavo("convert inches.3mf out.3mf --json").json()["warnings"], json::array());
+    EXPECT_EQ(octavo("convert inches.3mf out.ply --json").json()["warnings"],
+              json::array({"the unit is not kept: inch; ply states none"}));
+}
+
+TEST_F(Verbs, PointsWithDecimalCommasAreNotTakenForNames) {
+    ASSERT_EQ(octavo("shape cube -o cube.stl").exit_code, 0);
+    write("points.csv", "0,1;0,1;0,1\n");
+    const Ran ran = octavo("contains cube.stl points.csv");
+    EXPECT_EQ(ran.exit_code, 3);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_NE(ran.err.find("points.csv:1"), std::string::npos) << ran.err;
+}
+
 }  // namespace
 }  // namespace octavo::tests

@@ -50,6 +50,13 @@ TEST(Off, SplitsPolygonsAndLeavesOutEdges) {
     EXPECT_EQ(read.warnings.size(), 1u);
 }
 
+TEST(Off, WarnsOfWhatFollowsTheLastFace) {
+    const std::string text = "OFF\n4 2 0\n" + square_body;
+    EXPECT_TRUE(must_read(text + " \n# tail\n", "off").warnings.empty());
+    EXPECT_EQ(must_read(text + "3 0 1 3\n", "off").warnings,
+              std::vector<std::string>{"8 bytes after the last announced face are ignored"});
+}
+
 TEST(Off, RefusesOtherDimensions) {
     for (const char* text : {"nOFF 4\n1 1 0\n0 0 0 0\n3 0 0 0", "4nOFF 3\n1 1 0\n0 0 0 1\n3 0 0 0\n",
                              "4OFF\n1 1 0\n0 0 0 2\n3 0 0 0\n"}) {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include <octavo/io/ply.hpp>
+#include <octavo/io/points.hpp>
 
 #include "from_text.hpp"
 
@@ -244,6 +245,21 @@ TEST(PlyBinary, ReadsPolygonsBetweenTriangles) {
                   "ply");
     EXPECT_EQ(read.mesh.triangles.size(), 3u);
     EXPECT_EQ(read.polygon_of_triangle, (std::vector<std::uint32_t>{0, 1, 1}));
+}
+
+TEST(Ply, WarnsOfBytesAfterTheLastElement) {
+    for (const Encoding encoding : {Encoding::automatic, Encoding::ascii}) {
+        const std::string file = write_text(awkward_mesh(), "ply", encoding);
+        EXPECT_TRUE(must_read(file, "ply").warnings.empty());
+        const ReadMesh read = must_read(file + "3 0 1 2", "ply");
+        EXPECT_EQ(read.mesh.triangles.size(), 4u);
+        ASSERT_EQ(read.warnings.size(), 1u);
+        EXPECT_EQ(read.warnings[0], "7 bytes after the last announced element are ignored");
+        const Result<ReadPoints> points = read_points(bytes_of(file + "3 0 1 2"));
+        ASSERT_TRUE(points);
+        EXPECT_EQ(points->warnings, read.warnings);
+    }
+    EXPECT_TRUE(must_read(square + " \n\r\n", "ply").warnings.empty());
 }
 
 TEST(PlyBinary, RefusesEveryTruncationAndEveryBadIndex) {

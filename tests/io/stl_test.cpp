@@ -77,6 +77,22 @@ TEST(StlText, TakesAnyNameOfASolid) {
         EXPECT_EQ(must_read(replaced(two_facets, "part one", name), "stl").mesh.triangles.size(), 2u) << name;
 }
 
+TEST(StlText, MayStandOnOneLine) {
+    const ReadMesh plain = must_read(two_facets, "stl");
+    const std::string second = replaced(two_facets, "vertex 0 0 0", "vertex 5 5 5");
+    for (const char* name : {"part one", "", "Facet", "a facet normal 1 2 3 of it", "endsolid"}) {
+        const std::string text = replaced(replaced(two_facets, "part one", name), "\n", " ");
+        const ReadMesh read = must_read(text, "stl");
+        EXPECT_EQ(read.mesh.vertices, plain.mesh.vertices) << text;
+        EXPECT_EQ(read.mesh.triangles, plain.mesh.triangles) << text;
+        EXPECT_TRUE(read.warnings.empty()) << text;
+    }
+    EXPECT_EQ(must_read(replaced(two_facets + second, "\n", " "), "stl").mesh.triangles.size(), 4u);
+    expect_refused("solid empty endsolid empty", "stl", 0, "has no facets");
+    expect_refused(replaced(replaced(two_facets, "\n", " "), "vertex 1 1 0", "vertex 1 1"), "stl", 1,
+                   "a coordinate, found \"vertex\"");
+}
+
 TEST(StlText, WarnsWhenTheEndIsMissing) {
     const ReadMesh read = must_read(two_facets.substr(0, two_facets.find("endsolid")), "stl");
     EXPECT_EQ(read.mesh.triangles.size(), 2u);

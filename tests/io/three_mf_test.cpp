@@ -44,6 +44,17 @@ TEST(ThreeMf, ReadsTheObjectsOfTheBuild) {
     EXPECT_EQ(read.millimetres_per_unit, 1);
 }
 
+TEST(ThreeMf, NamesWhatItLeavesBehind) {
+    EXPECT_EQ(must_read(file_of(object_1, "<item objectid=\"1\"/>"), "3mf").left_behind,
+              std::vector<std::string>{});
+    const std::string wheel =
+        "<m:colorgroup id=\"7\"/><s:slicestack id=\"8\"/><object id=\"1\" name=\"wheel\">" +
+        replaced(one_triangle, "</mesh>", "<b:beamlattice/></mesh>") + "</object>\n";
+    EXPECT_EQ(
+        must_read(file_of(wheel, "<item objectid=\"1\"/><item objectid=\"1\"/>"), "3mf").left_behind,
+        (std::vector<std::string>{"objects", "beam lattices", "materials", "names of objects", "slices"}));
+}
+
 TEST(ThreeMf, TellsTheUnit) {
     for (const auto& [unit, scale] : {std::pair{"micron", 0.001},
                                       {"centimeter", 10.0},
