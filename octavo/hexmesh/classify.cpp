@@ -311,8 +311,7 @@ void CellOutput::append(CellOutput&& next) {
 }
 
 Result<ClassifiedCells> CellOutput::take() && {
-    if (too_many_sets_)
-        return Error{ErrorCode::limit, "the solids overlap in more than 65536 different ways", {}};
+    if (too_many_sets_) return too_many_sets();
     if (cells_.keys.size() > CellTree::most_leaves)
         return Error{ErrorCode::limit, "the octree has more than 2^31 - 2 cells", {}};
     for (std::size_t i = 0; i < sets_.size(); ++i) {
@@ -340,6 +339,10 @@ Error too_many_cells(std::uint64_t max_cells) {
             "the octree has more than " + grouped(max_cells) +
                 " cells; ask for larger cells, or raise the limit (max-cells)",
             {}};
+}
+
+Error too_many_sets() {
+    return {ErrorCode::limit, "the solids overlap in more than 65536 different ways", {}};
 }
 
 Result<ClassifiedCells> refine(std::span<const SolidFacets> solids, const SizeField& sizes,

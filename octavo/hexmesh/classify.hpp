@@ -42,6 +42,10 @@ struct SolidFacets {
 /// The error of an octree that has more cells than Options::max_cells.
 Error too_many_cells(std::uint64_t max_cells);
 
+/// Cells number their sets of solids with 16 bits: so many at most, or it is an error.
+inline constexpr std::size_t most_sets = 0x10000;
+Error too_many_sets();
+
 /// Refines as the size field asks, and classifies. Errors: limit beyond 2^16 sets of solids, `options.max_cells` or
 /// 2^31 − 2 cells; cancelled.
 Result<ClassifiedCells> refine(std::span<const SolidFacets> solids, const SizeField& sizes,

@@ -25,16 +25,26 @@ double base_size(const Options& options, const Box3& content) {
                                   : std::ldexp(std::max({extents.x, extents.y, extents.z}), -options.level);
 }
 
+struct SmallestSize {
+    double length;
+    const char* option;  ///< that asks for it
+};
+
 /// The smallest length that the options ask for.
-double smallest_size(const Options& options, double base) {
-    double size = base;
-    const auto at_most = [&](double length) {
-        if (length > 0) size = std::min(size, length);
+SmallestSize smallest_size(const Options& options, double base) {
+    SmallestSize smallest{base, "the precision"};
+    const auto at_most = [&](double length, const char* option) {
+        if (length > 0 && length < smallest.length) smallest = {length, option};
     };
-    at_most(options.largest), at_most(options.curvature.smallest), at_most(options.proximity.smallest);
-    for (const SolidSize& solid : options.solids) at_most(solid.surface), at_most(solid.interior);
-    for (const BoxSize& box : options.boxes) at_most(box.size);
-    return size;
+    at_most(options.largest, "the largest cell");
+    at_most(options.curvature.smallest, "the smallest cell for curvature");
+    at_most(options.proximity.smallest, "the smallest cell for proximity");
+    for (const SolidSize& solid : options.solids) {
+        at_most(solid.surface, "the surface size of a solid");
+        at_most(solid.interior, "the interior size of a solid");
+    }
+    for (const BoxSize& box : options.boxes) at_most(box.size, "the size in a box");
+    return smallest;
 }
 
 /// The grid, and what it takes to find places in it.
@@ -47,9 +57,18 @@ struct Grid {
 
 /// As many levels as it takes from the base to the smallest size.
 Result<Grid> make_grid(const Options& options, const Box3& content) {
-    const double base = base_size(options, content), smallest = smallest_size(options, base);
+    constexpr int most_levels = 12;
+    const double base = base_size(options, content);
+    const SmallestSize smallest = smallest_size(options, base);
     int levels = 1;
-    for (double side = base; side > smallest * (1 + 1e-12) && levels < 12; side /= 3) ++levels;
+    for (double side = base; side > smallest.length * (1 + 1e-12); side /= 3)
+        if (++levels > most_levels)
+            return Error{
+                ErrorCode::limit,
+                std::string(smallest.option) +
+                    " is more than 3^11 times smaller than the general size of cells, the most that a "
+                    "conforming mesh can do; give a smaller precision or level of its own",
+                {}};
     constexpr double most_cells = 1 << 20;
     const double side = base / std::pow(3.0, levels - 1);
     for (const Vec3& corner : {content.low, content.high})
@@ -57,12 +76,12 @@ Result<Grid> make_grid(const Options& options, const Box3& content) {
             if (std::fabs(corner[axis]) / side >= most_cells / 2)
                 return Error{
                     ErrorCode::limit, "a conforming mesh reaches at most 2^19 cells from the origin", {}};
-    return Grid{base, CubicGrid(levels)};
+    return Grid{base, CubicGrid(levels, options.max_cells)};
 }
 
-/// Calls `visit` for the cells of side `side` that meet a box.
+/// Calls `visit` for the cells of side `side` that meet a box, until it says false; false then.
 template <class Visit>
-void for_each_place(const Vec3& low, double reach, double side, const Visit& visit) {
+bool for_each_place(const Vec3& low, double reach, double side, const Visit& visit) {
     GridPlace first{}, last{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double at = low[static_cast<int>(axis)];
@@ -71,32 +90,67 @@ void for_each_place(const Vec3& low, double reach, double side, const Visit& vis
     }
     for (std::int64_t z = first[2]; z < last[2]; ++z)
         for (std::int64_t y = first[1]; y < last[1]; ++y)
-            for (std::int64_t x = first[0]; x < last[0]; ++x) visit(GridPlace{x, y, z});
+            for (std::int64_t x = first[0]; x < last[0]; ++x)
+                if (!visit(GridPlace{x, y, z})) return false;
+    return true;
 }
 
-/// Roots where the octree has cells, and smaller ones where it has cells smaller than the base: all of them where
-/// a surface passes, elsewhere those that the size field wants.
-void refine_like(const mesh::HexMesh& octants, const SizeField& sizes, Grid& grid) {
-    for (CellIndex cell = 0; cell < octants.cell_count(); ++cell) {
-        const mesh::SolidSet& set = octants.set_of(cell);
-        const octree::Cell octant = octree::Cell::of(octants.cells[cell]);
-        const Vec3 low = octants.lattice.to_world(octant.low);
-        const double reach = octants.lattice.unit() * octant.side();
-        for_each_place(low, reach, grid.base, [&](const GridPlace& place) { grid.cubic.add_root(place); });
-        int wanted = octant.level;
-        if (set.boundary.empty()) {
-            wanted = sizes.level_in(octant);
-            for (const mesh::SolidIndex solid : set.inside)
-                wanted = std::max(wanted, sizes.interior_level(solid));
-        }
-        // An octant of the base's size or larger may be up to half as large as the base: it asks for nothing.
-        const double size = octants.lattice.unit() * octree::cell_side(wanted);
-        if (2 * size > grid.base) continue;
-        int level = 0;
-        while (level < grid.cubic.last_level() && grid.side_of(level + 1) <= size) ++level;
-        for_each_place(low, reach, grid.side_of(level),
-                       [&](const GridPlace& place) { grid.cubic.refine_to(level, place); });
+/// The level of the grid's cells that an octant asks for: where a surface passes those of its own size, elsewhere those that
+/// the size field wants.
+int level_for(const mesh::HexMesh& octants, CellIndex cell, const SizeField& sizes, const Grid& grid) {
+    const mesh::SolidSet& set = octants.set_of(cell);
+    const octree::Cell octant = octree::Cell::of(octants.cells[cell]);
+    int wanted = octant.level;
+    if (set.boundary.empty()) {
+        wanted = sizes.level_in(octant);
+        for (const mesh::SolidIndex solid : set.inside)
+            wanted = std::max(wanted, sizes.interior_level(solid));
     }
+    // An octant of the base's size or larger may be up to half as large as the base: it asks for nothing.
+    const double size = octants.lattice.unit() * octree::cell_side(wanted);
+    if (2 * size > grid.base) return grid.cubic.last_level();
+    int level = 0;
+    while (level < grid.cubic.last_level() && grid.side_of(level + 1) <= size) ++level;
+    return level;
+}
+
+double side_of(const mesh::HexMesh& octants, CellIndex cell) {
+    return octants.lattice.unit() * octants.cells[cell].side();
+}
+
+/// Whether the grid will have more cells than allowed, as far as the octants' volume tells: their own cells fill them at least.
+/// Known before anything is stored.
+bool is_too_fine(const mesh::HexMesh& octants, const SizeField& sizes, const Grid& grid, double max_cells) {
+    double least = 0;
+    for (CellIndex cell = 0; cell < octants.cell_count(); ++cell)
+        least += std::pow(side_of(octants, cell) / grid.side_of(level_for(octants, cell, sizes, grid)), 3);
+    return least > max_cells * (1 + 1e-9);
+}
+
+/// Roots where the octree has cells, and smaller ones where it asks for them.
+Status refine_like(const mesh::HexMesh& octants, const SizeField& sizes, const Options& options, Grid& grid,
+                   const Context& context) {
+    const auto may_go_on = [&] { return !grid.cubic.is_full() && !context.cancelled(); };
+    if (is_too_fine(octants, sizes, grid, static_cast<double>(options.max_cells)))
+        return too_many_cells(options.max_cells);
+    bool done = true;
+    for (CellIndex cell = 0; cell < octants.cell_count() && done; ++cell) {
+        const Vec3 low = octants.lattice.to_world(octree::Cell::of(octants.cells[cell]).low);
+        const double reach = side_of(octants, cell);
+        done = for_each_place(low, reach, grid.base, [&](const GridPlace& place) {
+            grid.cubic.add_root(place);
+            return may_go_on();
+        });
+        const int level = level_for(octants, cell, sizes, grid);
+        done = done && for_each_place(low, reach, grid.side_of(level), [&](const GridPlace& place) {
+                   grid.cubic.refine_to(level, place);
+                   return may_go_on();
+               });
+    }
+    if (done) grid.cubic.close(context);
+    if (context.cancelled()) return Context::cancelled_error();
+    if (grid.cubic.is_full()) return too_many_cells(options.max_cells);
+    return Done{};
 }
 
 /// A point of the grid, in parts of the smallest cells' sides.
@@ -122,13 +176,13 @@ struct LooseHexes {
     std::vector<Vec3> centres;
 };
 
-/// Stops soon after `max_cells` are exceeded.
-LooseHexes cut_leaves(const Grid& grid, std::uint64_t max_cells) {
+/// Stops soon after `max_cells` are exceeded, or the work is cancelled.
+LooseHexes cut_leaves(const Grid& grid, std::uint64_t max_cells, const Context& context) {
     std::map<EdgeSet, std::vector<TemplateHex>> templates;
     LooseHexes loose;
     const double side = grid.side_of(0);
     grid.cubic.for_each_leaf([&](const CubicGrid::Leaf& leaf) {
-        if (loose.hexes.size() > max_cells) return;
+        if (loose.hexes.size() > max_cells || context.cancelled()) return;
         auto found = templates.find(leaf.cut);
         if (found == templates.end()) found = templates.emplace(leaf.cut, cut_cell(leaf.cut)).first;
         OCTAVO_CHECK(!found->second.empty(), "every leaf of a closed grid has a template");
@@ -166,17 +220,18 @@ Result<std::vector<std::vector<mesh::SolidIndex>>> solids_at(std::span<const mes
     return found;
 }
 
-mesh::HexMesh assemble(const LooseHexes& loose, const std::vector<std::vector<mesh::SolidIndex>>& solids,
-                       double side) {
+Result<mesh::HexMesh> assemble(const LooseHexes& loose,
+                               const std::vector<std::vector<mesh::SolidIndex>>& solids, double side) {
     mesh::HexMesh mesh;
     mesh.sets.push_back({});
-    std::map<std::vector<mesh::SolidIndex>, std::uint16_t> sets;
+    std::map<std::vector<mesh::SolidIndex>, std::uint16_t> sets;  // fits: checked before the next cell
     std::unordered_map<GridPoint, NodeIndex, GridPointHash> nodes;
     for (std::size_t i = 0; i < loose.hexes.size(); ++i) {
         if (solids[i].empty()) continue;
         const auto [set, fresh_set] =
             sets.try_emplace(solids[i], static_cast<std::uint16_t>(mesh.sets.size()));
         if (fresh_set) mesh.sets.push_back({solids[i], {}});
+        if (mesh.sets.size() > most_sets) return too_many_sets();
         mesh.set_of_cell.push_back(set->second);
         std::array<NodeIndex, 8>& corners = mesh.corners.emplace_back();
         for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -223,31 +278,35 @@ void measure(const mesh::HexMesh& mesh, Report& report) {
 
 Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options& options,
                                const Context& context) {
-    Box3 content;
-    for (const mesh::Mesh& solid : solids) content.add(solid.bounds());
     Options sizing = options;
     sizing.keep = Keep::touched;
     sizing.fractions = Fractions::skip;
     sizing.balance = octree::Contact::face;
-    Result<Built> built = build(solids, sizing, context);
-    if (!built) return built;
-    const Result<SizeField> sizes = SizeField::from(sizing, solids.size(), content, built->mesh.lattice);
+    Box3 content;
+    for (const mesh::Mesh& solid : solids) content.add(solid.bounds());
+    const Result<exact::Lattice> lattice = grid_lattice(content);
+    if (!lattice) return lattice.error();
+    const Result<SizeField> sizes = SizeField::from(sizing, solids.size(), content, *lattice);
     if (!sizes) return sizes.error();
-
-    context.report("conform", 0);
     Result<Grid> grid = make_grid(options, content);
     if (!grid) return grid.error();
-    refine_like(built->mesh, *sizes, *grid);
+    Result<Built> built = build(solids, sizing, context);
+    if (!built) return built;
+
+    context.report("conform", 0);
+    if (Status refined = refine_like(built->mesh, *sizes, options, *grid, context); !refined)
+        return refined.error();
     built->mesh = {};
-    grid->cubic.close();
     context.report("conform", 0.3);
+    const LooseHexes loose = cut_leaves(*grid, options.max_cells, context);
     if (context.cancelled()) return Context::cancelled_error();
-    const LooseHexes loose = cut_leaves(*grid, options.max_cells);
     if (loose.hexes.size() > options.max_cells) return too_many_cells(options.max_cells);
     context.report("conform", 0.6);
     const auto inside = solids_at(solids, loose.centres, options, context);
     if (!inside) return inside.error();
-    built->mesh = assemble(loose, *inside, grid->side_of(0));
+    Result<mesh::HexMesh> mesh = assemble(loose, *inside, grid->side_of(0));
+    if (!mesh) return mesh.error();
+    built->mesh = std::move(*mesh);
     built->report.tree_cells = loose.hexes.size();
     measure(built->mesh, built->report);
     context.report("conform", 1);

@@ -29,7 +29,8 @@ namespace octavo::hexmesh {
 /// Meshes the solids. `balance` and `keep` of the options mean nothing here; the mesh is no octree, so that
 /// `cells`, `nodes` and `fractions` are empty. Of the report's volumes only `exact_volume` and `inside_volume`, that of
 /// the cells, are given.
-/// Errors: those of `build`; limit when the grid has more than 2^20 cells along an axis.
+/// Errors: those of `build`; limit when the grid has more than 2^20 cells along an axis, or a size is more than 3^11 times
+/// smaller than `precision`. `max_cells` limits the octree and the hexahedra of the grid, those outside included.
 Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options& options = {},
                                const Context& context = {});
 

@@ -35,7 +35,8 @@ GridPlace plus(const GridPlace& a, const GridPlace& b) { return {a[0] + b[0], a[
 
 }  // namespace
 
-CubicGrid::CubicGrid(int levels) : cut_(static_cast<std::size_t>(levels)), templates_(4096) {
+CubicGrid::CubicGrid(int levels, std::uint64_t max_leaves)
+    : max_leaves_(max_leaves), cut_(static_cast<std::size_t>(levels)), templates_(4096) {
     for (unsigned cut = 0; cut < 4096; ++cut) templates_[cut] = !cut_cell(static_cast<EdgeSet>(cut)).empty();
 }
 
@@ -53,11 +54,25 @@ GridPlace CubicGrid::place_of(Key key) {
     return place;
 }
 
-void CubicGrid::refine_to(int level, GridPlace place) {
-    for (int above = level + 1; above <= last_level(); ++above) {
+void CubicGrid::sort_roots() {
+    std::sort(roots_.begin(), roots_.end());
+    roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
+    sorted_roots_ = roots_.size();
+    roots_to_sort_ = std::max(roots_to_sort_, 2 * sorted_roots_);
+}
+
+std::uint64_t CubicGrid::cut_above(int level, GridPlace place) {
+    std::uint64_t fresh = 0;
+    for (int above = level + 1; above <= last_level(); ++above, ++fresh) {
         place = parent_of(place);
-        if (!cut_[static_cast<std::size_t>(above)].insert(key_of(place)).second) return;
+        if (!cut_[static_cast<std::size_t>(above)].insert(key_of(place)).second) break;
     }
+    return fresh;
+}
+
+bool CubicGrid::is_below_root(int level, GridPlace place) const {
+    for (; level < last_level(); ++level) place = parent_of(place);
+    return std::binary_search(roots_.begin(), roots_.end(), key_of(place));
 }
 
 EdgeSet CubicGrid::cut_edges(int level, const GridPlace& place) const {
@@ -78,28 +93,35 @@ EdgeSet CubicGrid::cut_edges(int level, const GridPlace& place) const {
     return static_cast<EdgeSet>(cut);
 }
 
-void CubicGrid::close() {
-    for (int level = 1; level <= last_level(); ++level) close_level(level);
-    std::sort(roots_.begin(), roots_.end());
-    roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
+void CubicGrid::close(const Context& context) {
+    sort_roots();
+    for (int level = 1; level <= last_level(); ++level) close_level(level, context);
 }
 
 /// Cells of the level that are cut, and their neighbours, exist: their parents are cut. Neighbours without a template
 /// are cut themselves.
-void CubicGrid::close_level(int level) {
-    std::unordered_set<Key>& cut = cut_[static_cast<std::size_t>(level)];
+void CubicGrid::close_level(int level, const Context& context) {
+    const std::unordered_set<Key>& cut = cut_[static_cast<std::size_t>(level)];
     std::vector<Key> open(cut.begin(), cut.end());
-    while (!open.empty()) {
+    while (!open.empty() && !is_full() && !context.cancelled()) {
         const GridPlace place = place_of(open.back());
         open.pop_back();
-        refine_to(level, place);
-        for (const GridPlace& offset : neighbours()) {
-            const GridPlace next = plus(place, offset);
-            refine_to(level, next);
-            if (is_cut(level, next) || has_template(cut_edges(level, next))) continue;
-            cut.insert(key_of(next));
-            open.push_back(key_of(next));
-        }
+        close_beside(level, place, open);
+    }
+}
+
+void CubicGrid::close_beside(int level, const GridPlace& place, std::vector<Key>& open) {
+    const auto add_leaves = [&](const GridPlace& at, std::uint64_t cuts) {
+        if (cuts > 0 && is_below_root(level, at)) leaves_cut_ += 26 * cuts;
+    };
+    add_leaves(place, cut_above(level, place));
+    for (const GridPlace& offset : neighbours()) {
+        const GridPlace next = plus(place, offset);
+        add_leaves(next, cut_above(level, next));
+        if (is_cut(level, next) || has_template(cut_edges(level, next))) continue;
+        cut_[static_cast<std::size_t>(level)].insert(key_of(next));
+        add_leaves(next, 1);
+        open.push_back(key_of(next));
     }
 }
 
