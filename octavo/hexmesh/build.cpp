@@ -12,6 +12,7 @@
 #include <octavo/hexmesh/covered_sides.hpp>
 #include <octavo/hexmesh/half_filled.hpp>
 #include <octavo/hexmesh/number.hpp>
+#include <octavo/hexmesh/used_vertices.hpp>
 #include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/snap.hpp>
 
@@ -71,14 +72,15 @@ Result<SolidFacets> closed_facets(mesh::LatticeMesh mesh, classic::OpenPolicy po
 
 Result<Prepared> prepare(std::span<const mesh::Mesh> solids, const Options& options) {
     Prepared prepared;
-    for (const mesh::Mesh& solid : solids) prepared.content.add(solid.bounds());
+    prepared.content = bounds_of_facets(solids);
     if (prepared.content.empty())
-        return Error{ErrorCode::bad_input, "there is nothing to mesh: the solids have no vertices", {}};
+        return Error{ErrorCode::bad_input, "there is nothing to mesh: the solids have no facets", {}};
     const Result<exact::Lattice> lattice = grid_lattice(prepared.content);
     if (!lattice) return lattice.error();
     prepared.lattice = *lattice;
     for (std::size_t i = 0; i < solids.size(); ++i) {
-        Result<mesh::Snapped> snapped = mesh::snap(solids[i], *lattice);
+        const std::optional<mesh::Mesh> moved = with_unused_vertices_moved(solids[i]);
+        Result<mesh::Snapped> snapped = mesh::snap(moved ? *moved : solids[i], *lattice);
         if (!snapped) return of_solid(snapped.error(), i, solids.size());
         SolidReport& report = prepared.reports.emplace_back();
         report.largest_displacement = snapped->report.largest_displacement;

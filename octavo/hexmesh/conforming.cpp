@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <octavo/hexmesh/cubic_grid.hpp>
 #include <octavo/hexmesh/quality.hpp>
 #include <octavo/hexmesh/size_field.hpp>
+#include <octavo/hexmesh/used_vertices.hpp>
 #include <octavo/query/inside.hpp>
 
 namespace octavo::hexmesh {
@@ -210,7 +212,9 @@ Result<std::vector<std::vector<mesh::SolidIndex>>> solids_at(std::span<const mes
     for (mesh::SolidIndex solid = 0; solid < solids.size(); ++solid) {
         query::InsideOptions asking;
         asking.open = options.open;
-        const Result<query::InsideQuery> inside = query::InsideQuery::build(solids[solid], asking, context);
+        const std::optional<mesh::Mesh> moved = with_unused_vertices_moved(solids[solid]);
+        const Result<query::InsideQuery> inside =
+            query::InsideQuery::build(moved ? *moved : solids[solid], asking, context);
         if (!inside) return inside.error();
         const std::vector<query::Side> sides = (*inside)(centres, context);
         if (context.cancelled()) return Context::cancelled_error();
@@ -282,8 +286,8 @@ Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options
     sizing.keep = Keep::touched;
     sizing.fractions = Fractions::skip;
     sizing.balance = octree::Contact::face;
-    Box3 content;
-    for (const mesh::Mesh& solid : solids) content.add(solid.bounds());
+    const Box3 content = bounds_of_facets(solids);
+    if (content.empty()) return build(solids, sizing, context);  // which says what is wrong
     const Result<exact::Lattice> lattice = grid_lattice(content);
     if (!lattice) return lattice.error();
     const Result<SizeField> sizes = SizeField::from(sizing, solids.size(), content, *lattice);

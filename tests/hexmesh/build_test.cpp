@@ -6,12 +6,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include <octavo/hexmesh/build.hpp>
+#include <octavo/hexmesh/conforming.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/shapes.hpp>
 
@@ -122,6 +124,25 @@ TEST(Build, GivesAbsoluteCellsOnMultiplesOfTheirSide) {
         return corners;
     };
     EXPECT_EQ(boundary_corners(*alone), boundary_corners(*together));
+}
+
+TEST(Build, TakesNoNoticeOfVerticesThatNoFacetUses) {
+    const Mesh sphere = mesh::icosphere(1, 8);
+    const Result<Built> plain = build(std::span(&sphere, 1), {.level = 5});
+    const Result<Built> plain_conforming = build_conforming(std::span(&sphere, 1), {.level = 4});
+    ASSERT_TRUE(plain && plain_conforming);
+    for (const double x : {5000.0, 1e9, std::numeric_limits<double>::infinity()}) {
+        Mesh solid = sphere;
+        solid.vertices.push_back({x, 0, 0});
+        const Result<Built> built = build(std::span(&solid, 1), {.level = 5});
+        ASSERT_TRUE(built) << built.error().describe();
+        EXPECT_EQ(built->mesh.cells, plain->mesh.cells);
+        EXPECT_EQ(built->mesh.fractions, plain->mesh.fractions);
+        EXPECT_EQ(built->report.solids[0].largest_displacement, plain->report.solids[0].largest_displacement);
+        const Result<Built> conforming = build_conforming(std::span(&solid, 1), {.level = 4});
+        ASSERT_TRUE(conforming) << conforming.error().describe();
+        EXPECT_EQ(conforming->mesh.positions, plain_conforming->mesh.positions);
+    }
 }
 
 TEST(Build, FitsABoxOnTheGridWithoutBoundaryCells) {
