@@ -178,15 +178,27 @@ Result<ClassifiedCells> balanced_cells(const Prepared& prepared, const Options& 
     return inherit(std::move(*refined), std::move(keys));
 }
 
-Error overlap_error(const ClassifiedCells& cells, std::size_t solids) {
+Error inside_out_error(std::vector<std::uint32_t> facets) {
     Error error{
         ErrorCode::not_a_solid,
-        "the surface overlaps itself or is inside out: winding numbers other than 0 and 1 occur; a union of "
-        "the solid resolves overlaps",
+        "the surface is inside out: its volume is negative, since its facets run clockwise seen from outside",
         {}};
+    error.place.faces = std::move(facets);
+    std::sort(error.place.faces.begin(), error.place.faces.end());
+    return error;
+}
+
+Error overlap_error(const ClassifiedCells& cells, std::span<const SolidReport> solids) {
+    if (solids[cells.overlapping_solid].exact_volume < 0)
+        return of_solid(inside_out_error(cells.overlap), cells.overlapping_solid, solids.size());
+    Error error{ErrorCode::not_a_solid,
+                "the surface overlaps itself, or a part of it is inside out: winding numbers other than 0 "
+                "and 1 occur; "
+                "a union of the solid resolves overlaps",
+                {}};
     error.place.faces = cells.overlap;
     std::sort(error.place.faces.begin(), error.place.faces.end());
-    return of_solid(std::move(error), cells.overlapping_solid, solids);
+    return of_solid(std::move(error), cells.overlapping_solid, solids.size());
 }
 
 /// Adds with the rounding errors kept (A. Neumaier, 1974).
@@ -307,6 +319,16 @@ Result<mesh::HexMesh> assemble(const exact::Lattice& lattice, ClassifiedCells ce
 
 }  // namespace
 
+Error empty_error(std::span<const SolidReport> solids) {
+    for (std::size_t i = 0; i < solids.size(); ++i)
+        if (solids[i].exact_volume < 0) return of_solid(inside_out_error({0}), i, solids.size());
+    return {
+        ErrorCode::bad_input,
+        "the mesh has no cells: those asked for are too large for the solid; ask for smaller ones (level, "
+        "precision)",
+        {}};
+}
+
 Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, const Context& context) {
     if (options.layers < 0 || options.layers > 100)
         return Error{ErrorCode::bad_input, "the number of layers must be 0 to 100", {}};
@@ -318,7 +340,8 @@ Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, 
     Result<ClassifiedCells> cells = balanced_cells(*prepared, options, context);
     if (!cells) return cells.error();
     const bool overlaps = !cells->overlap.empty();
-    if (overlaps && options.overlaps == OverlapPolicy::reject) return overlap_error(*cells, solids.size());
+    if (overlaps && options.overlaps == OverlapPolicy::reject)
+        return overlap_error(*cells, prepared->reports);
     if (context.cancelled()) return Context::cancelled_error();
 
     Built built;
@@ -329,6 +352,7 @@ Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, 
     context.report("number", 0);
     Result<mesh::HexMesh> mesh = assemble(prepared->lattice, std::move(*cells), options);
     if (!mesh) return mesh.error();
+    if (mesh->corners.empty()) return empty_error(built.report.solids);
     count_cells(*mesh, built.report);
     built.mesh = std::move(*mesh);
     context.report("number", 1);

@@ -53,9 +53,12 @@ struct Built {
 };
 
 /// Meshes the solids, which may overlap, touch or lie in each other.
-/// Errors: bad_input (indices, coordinates, options); not_a_solid (open, overlapping itself or inside out, under the
+/// Errors: bad_input (indices, coordinates, options; no cell belongs to the mesh); not_a_solid (open, overlapping itself or inside out, under the
 /// rejecting policies) with facets of the solid `Place::file` "solid N" when there are several; limit; cancelled.
 Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options = {},
                     const Context& context = {});
+
+/// The error of a mesh without cells: a solid is inside out (not_a_solid), or too small for the cells (bad_input).
+Error empty_error(std::span<const SolidReport> solids);
 
 }  // namespace octavo::hexmesh

@@ -311,6 +311,7 @@ Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options
     Result<mesh::HexMesh> mesh = assemble(loose, *inside, grid->side_of(0));
     if (!mesh) return mesh.error();
     built->mesh = std::move(*mesh);
+    if (built->mesh.corners.empty()) return empty_error(built->report.solids);
     built->report.tree_cells = loose.hexes.size();
     measure(built->mesh, built->report);
     context.report("conform", 1);

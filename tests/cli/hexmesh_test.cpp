@@ -102,10 +102,16 @@ TEST_F(Hexmesh, SaysWhenASolidFillsNoCell) {
     write("sheet.csg",
           "multmatrix([[1, 0, 0, 0.1], [0, 1, 0, 0.1], [0, 0, 1, 0.1], [0, 0, 0, 1]]) { cube(size = [10, 10, "
           "0.001]); }");
+    ASSERT_EQ(octavo("shape cube --size 8 -o cube.off").exit_code, 0);
     for (const char* options : {"--fit", "--conforming", "--keep half"}) {
-        const Ran ran = octavo(std::string("hexmesh sheet.csg --level 4 ") + options);
-        EXPECT_EQ(ran.exit_code, 0) << ran.err;
-        EXPECT_NE(ran.err.find("no cell of the mesh belongs to it"), std::string::npos) << options << ran.err;
+        const Ran beside = octavo(std::string("hexmesh sheet.csg cube.off --level 4 ") + options);
+        EXPECT_EQ(beside.exit_code, 0) << beside.err;
+        EXPECT_NE(beside.err.find("sheet: no cell of the mesh belongs to it"), std::string::npos)
+            << options << beside.err;
+        const Ran alone = octavo(std::string("hexmesh sheet.csg --level 4 -o sheet.inp ") + options);
+        EXPECT_EQ(alone.exit_code, 3) << alone.err;
+        EXPECT_NE(alone.err.find("the mesh has no cells"), std::string::npos) << options << alone.err;
+        EXPECT_FALSE(std::filesystem::exists(path("sheet.inp")));
     }
     EXPECT_EQ(octavo("hexmesh sheet.csg --level 4").err.find("no cell of the mesh"), std::string::npos);
 }

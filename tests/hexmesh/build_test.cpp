@@ -329,6 +329,38 @@ TEST(Build, SaysWhereAHoleIsAndRefusesWhatEnclosesNothing) {
     EXPECT_EQ(nothing.error().code, ErrorCode::not_a_solid);
 }
 
+TEST(Build, SaysThatASurfaceIsInsideOut) {
+    const Mesh inverted = reversed(mesh::icosphere(1, 4));
+    for (const OverlapPolicy overlaps : {OverlapPolicy::reject, OverlapPolicy::winding})
+        for (const bool conforming : {false, true}) {
+            Options options{.level = 4, .keep = Keep::half};
+            options.overlaps = overlaps;
+            const Result<Built> refused = conforming ? build_conforming(std::span(&inverted, 1), options)
+                                                     : build(std::span(&inverted, 1), options);
+            ASSERT_FALSE(refused) << conforming;
+            EXPECT_EQ(refused.error().code, ErrorCode::not_a_solid);
+            EXPECT_EQ(refused.error().sentence.rfind("the surface is inside out", 0), 0u)
+                << refused.error().sentence;
+            EXPECT_FALSE(refused.error().place.faces.empty());
+        }
+    const Mesh solids[] = {mesh::cube(), inverted};
+    const Result<Built> second = build(solids, {.level = 4});
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().sentence.rfind("solid 1: the surface is inside out", 0), 0u);
+}
+
+TEST(Build, RefusesAMeshWithoutCells) {
+    const Mesh sheet = mesh::box({0.1, 0.1, 0.1}, {10.1, 10.1, 0.101});
+    for (const Keep keep : {Keep::half, Keep::manifold}) {
+        const Result<Built> refused = build(std::span(&sheet, 1), {.level = 4, .keep = keep});
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::bad_input);
+        EXPECT_NE(refused.error().sentence.find("no cells"), std::string::npos);
+    }
+    EXPECT_FALSE(build_conforming(std::span(&sheet, 1), {.level = 4}));
+    EXPECT_TRUE(build(std::span(&sheet, 1), {.level = 4}));
+}
+
 TEST(Build, RefusesOptionsThatMakeNoSense) {
     const Mesh solid = mesh::cube();
     const auto code = [&](const Options& options) {
