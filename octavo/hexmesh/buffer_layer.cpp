@@ -72,7 +72,7 @@ class LayerBuilder {
     LayerBuilder(const HexMesh& mesh, const std::vector<HexSide>& sides)
         : mesh_(mesh), sides_(sides), edges_(sides), twin_(mesh.node_count(), no_node) {}
 
-    /// The mesh with the layer, or none when some cell stays folded.
+    /// The mesh with the layer, or none when some cell stays folded or there are more nodes than numbers.
     std::optional<HexMesh> run() {
         HexMesh layered;
         layered.lattice = mesh_.lattice;
@@ -81,7 +81,7 @@ class LayerBuilder {
         layered.constraints_are_direct = mesh_.constraints_are_direct;
         for (NodeIndex node = 0; node < mesh_.node_count(); ++node)
             layered.positions.push_back(mesh_.position(node));
-        add_twins(layered.positions);
+        if (!add_twins(layered.positions)) return std::nullopt;
         layered.corners = mesh_.corners;
         for (auto& corners : layered.corners)
             for (NodeIndex& corner : corners) corner = inner(corner);
@@ -107,8 +107,8 @@ class LayerBuilder {
     }
 
     /// A twin for each node of the boundary, and the way to it: inwards from all sides at the node at once, the sum of their
-    /// directions, each counted once.
-    void add_twins(std::vector<Vec3>& positions) {
+    /// directions, each counted once. False when the twins are more than there are numbers for.
+    bool add_twins(std::vector<Vec3>& positions) {
         struct AtNode {
             std::array<Vec3, 6> directions{};
             std::size_t count = 0;
@@ -122,6 +122,7 @@ class LayerBuilder {
             for (std::size_t i = 0; i < 4; ++i) {
                 NodeIndex& twin = twin_[side.corners[i]];
                 if (twin == no_node) {
+                    if (mesh_.node_count() + doubled_.size() >= no_node) return false;
                     twin = static_cast<NodeIndex>(mesh_.node_count() + doubled_.size());
                     doubled_.push_back(side.corners[i]);
                     at_nodes.emplace_back();
@@ -143,6 +144,7 @@ class LayerBuilder {
         }
         thickness_.assign(doubled_.size(), usual_thickness);
         positions.resize(positions.size() + doubled_.size());
+        return true;
     }
 
     void place_twins(HexMesh& layered) const {
