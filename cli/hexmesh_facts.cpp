@@ -160,6 +160,8 @@ void warn_about(Session& session, const hexmesh::Built& built, std::span<const s
         else if (solid.inside_cells == 0 && solid.boundary_cells > 0)
             session.warn(fmt::format("{}: no cell lies inside; the cells are too large for it", names[i]));
     }
+    for (const std::size_t box : report.missed_boxes)
+        session.warn(fmt::format("--box number {} misses the model and changes nothing", box + 1));
     if (report.overlaps)
         session.warn(
             "a solid overlaps itself; inside is where its surface winds at least once, and volumes count "

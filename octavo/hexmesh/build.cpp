@@ -243,6 +243,19 @@ void measure_solids(const exact::Lattice& lattice, const ClassifiedCells& cells,
         solids[solid].filled_volume = filled[solid].total();
 }
 
+/// The boxes that lie beside what holds all solids, and so change nothing.
+std::vector<std::size_t> missed_boxes(std::span<const BoxSize> boxes, const Box3& content) {
+    std::vector<std::size_t> missed;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const Box3& box = boxes[i].box;
+        bool meets = true;
+        for (int axis = 0; axis < 3; ++axis)
+            meets = meets && box.low[axis] <= content.high[axis] && content.low[axis] <= box.high[axis];
+        if (!meets) missed.push_back(i);
+    }
+    return missed;
+}
+
 /// Counts the cells of the mesh.
 void count_cells(const mesh::HexMesh& mesh, Report& report) {
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
@@ -346,6 +359,7 @@ Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, 
 
     Built built;
     built.report.overlaps = overlaps;
+    if (options.keep != Keep::all) built.report.missed_boxes = missed_boxes(options.boxes, prepared->content);
     cells = decided_cells(*prepared, std::move(*cells), options, built.report, context);
     if (!cells) return cells.error();
     prepared->facets = {};

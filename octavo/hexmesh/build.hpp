@@ -45,6 +45,8 @@ struct Report {
     std::vector<SolidReport> solids;
     HalfFilled half_filled;  ///< cells that Keep::manifold added and left out
     bool overlaps = false;   ///< a solid overlaps itself; only under OverlapPolicy::winding
+    std::vector<std::size_t>
+        missed_boxes;  ///< of Options::boxes, those that no solid reaches; not under Keep::all
 };
 
 struct Built {

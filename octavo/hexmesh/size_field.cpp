@@ -21,17 +21,16 @@ constexpr double opposite_cosine = -0.866;  // 150 degrees
 Error bad(std::string sentence) { return {ErrorCode::bad_input, std::move(sentence), {}}; }
 
 /// The level of the largest cells whose side is at most `length`; 0 for length 0, which asks for nothing.
-Result<int> level_of(double length, const char* what, const exact::Lattice& lattice) {
+Result<int> level_of(double length, const std::string& what, const exact::Lattice& lattice) {
     if (!(length >= 0) || !std::isfinite(length))
-        return bad(std::string(what) + " must be a length, 0 or more, and finite");
+        return bad(what + " must be a length, 0 or more, and finite");
     if (length == 0) return 0;
     const double finest = std::ldexp(lattice.unit(), exact::coordinate_bits - max_level);
     if (length < finest) {
         std::array<char, 32> side;
         std::snprintf(side.data(), side.size(), "%g", finest);
         return Error{ErrorCode::limit,
-                     std::string(what) + " is smaller than the smallest cells possible here, whose side is " +
-                         side.data(),
+                     what + " is smaller than the smallest cells possible here, whose side is " + side.data(),
                      {}};
     }
     int level = 0;
@@ -75,7 +74,7 @@ Result<SizeField> SizeField::from(const Options& options, std::size_t solids, co
     const double precision = options.precision != 0 ? options.precision : std::ldexp(longest, -options.level);
     Error error;
     bool failed = false;
-    const auto level = [&](double length, const char* what) {
+    const auto level = [&](double length, const std::string& what) {
         const Result<int> result = level_of(length, what, lattice);
         if (!result && !failed) error = result.error(), failed = true;
         const int value = result ? *result : 0;
@@ -84,7 +83,10 @@ Result<SizeField> SizeField::from(const Options& options, std::size_t solids, co
     };
 
     field.largest_level_ = level(options.largest, "the largest cell");
-    field.surface_.assign(solids, level(precision, "the precision"));
+    const std::string general = options.precision != 0
+                                    ? "the precision"
+                                    : "the size of cells of level " + std::to_string(options.level);
+    field.surface_.assign(solids, level(precision, general));
     field.interior_.assign(solids, 0);
     for (const SolidSize& size : options.solids) {
         if (size.solid >= solids)

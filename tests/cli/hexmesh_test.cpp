@@ -116,6 +116,25 @@ TEST_F(Hexmesh, SaysWhenASolidFillsNoCell) {
     EXPECT_EQ(octavo("hexmesh sheet.csg --level 4").err.find("no cell of the mesh"), std::string::npos);
 }
 
+TEST_F(Hexmesh, SaysWhenABoxMissesTheModel) {
+    ASSERT_EQ(octavo("shape cube --size 8 -o cube.off").exit_code, 0);
+    for (const char* options : {"", "--conforming "}) {
+        const Ran ran = octavo(std::string("hexmesh cube.off --level 3 --box 0,0,0,1,1,1:0.5 ") + options +
+                               "--box 50,50,50,51,51,51:0.1");
+        EXPECT_EQ(ran.exit_code, 0) << ran.err;
+        EXPECT_NE(ran.err.find("--box number 2 misses the model"), std::string::npos) << ran.err;
+        EXPECT_EQ(ran.err.find("--box number 1"), std::string::npos) << ran.err;
+    }
+}
+
+TEST_F(Hexmesh, NamesTheLevelWhenItIsTooDeep) {
+    ASSERT_EQ(octavo("shape cube --size 8 -o cube.off").exit_code, 0);
+    const Ran ran = octavo("hexmesh cube.off --level 21");
+    EXPECT_NE(ran.exit_code, 0);
+    EXPECT_NE(ran.err.find("level 21"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find("precision"), std::string::npos) << ran.err;
+}
+
 TEST_F(Hexmesh, GoesFromOpenscadToAPictureOfStresses) {
     // The worked example of docs/methods/hexmesh.md, coarser.
     const std::string examples = std::string(source_folder) + "/docs/examples/";
