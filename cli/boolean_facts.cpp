@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "boolean_facts.hpp"
 
+#include <charconv>
+#include <cmath>
+#include <optional>
 #include <regex>
 
 #include <fmt/format.h>
@@ -25,6 +28,31 @@ std::string with_names(const std::string& sentence, const std::vector<std::strin
     return found.prefix().str() + named + found.suffix().str();
 }
 
+std::optional<double> parse_length(const std::string& text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool good = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+    return good && number >= 0 ? std::optional(number) : std::nullopt;
+}
+
+Json facts_of(const boolean::FlushReport& flush) {
+    Json removed = Json::array();
+    for (const mesh::Source& source : flush.first_removed) removed.push_back({source.operand, source.face});
+    return {{"tolerance", flush.tolerance},
+            {"rounds", flush.rounds},
+            {"merged_vertices", flush.merged_vertices},
+            {"added_vertices", flush.added_vertices},
+            {"bent_edges", flush.bent_edges},
+            {"bent_facets", flush.bent_facets},
+            {"joined_facets", flush.joined_facets},
+            {"removed_facets", flush.removed_facets},
+            {"first_removed", removed},
+            {"removed_shells", flush.removed_shells},
+            {"folded_facets", flush.folded_facets},
+            {"largest_move", flush.largest_move},
+            {"settled", flush.settled}};
+}
+
 void tell(Session& session, const boolean::Evaluated& evaluated, const std::string& output,
           const OperandNames& operands) {
     const mesh::Measures measures = mesh::measure(evaluated.mesh);
@@ -44,19 +72,37 @@ void tell(Session& session, const boolean::Evaluated& evaluated, const std::stri
                       {"closing_facets", report.closing_facets},
                       {"largest_displacement", report.largest_displacement},
                       {"largest_rounding", report.largest_rounding},
+                      {"mended_points", report.mended_points},
                       {"inverted_facets", report.inverted_facets},
-                      {"first_inverted", report.first_inverted}};
+                      {"first_inverted", report.first_inverted},
+                      {"crossing_facets", report.crossing_facets},
+                      {"first_crossing", report.first_crossing},
+                      {"dangling_facets", report.dangling_facets},
+                      {"flush", facts_of(report.flush)}};
     session.text = fmt::format("{}: {} triangles, volume {}, area {}\n", output,
                                grouped(evaluated.mesh.triangles.size()), number_text(measures.volume),
                                number_text(measures.area));
+    if (report.flush.rounds > 0)
+        session.text += fmt::format(
+            "made flush within {}: {} vertices merged, {} edges and {} facets bent by at most {}, {} facets "
+            "removed\n",
+            number_text(report.flush.tolerance), grouped(report.flush.merged_vertices),
+            grouped(report.flush.bent_edges), grouped(report.flush.bent_facets),
+            number_text(report.flush.largest_move), grouped(report.flush.removed_facets));
+    if (report.dangling_facets > 0)
+        session.text += fmt::format("{} facets dangle\n", grouped(report.dangling_facets));
 }
 
 }  // namespace
 
-boolean::Options BooleanOutput::evaluation() const {
+boolean::Options BooleanOutput::evaluation(boolean::Tolerance standard) const {
     boolean::Options options;
+    options.tolerance = tolerance.empty()
+                            ? standard
+                            : boolean::Tolerance{*parse_length(tolerance), boolean::Tolerance::Of::length};
     options.simplify = simplify == "none" ? boolean::Simplify::none : boolean::Simplify::coplanar;
     options.open = open == "winding" ? boolean::OpenOperands::winding : boolean::OpenOperands::reject;
+    options.dangling = regularized == "no" ? boolean::Dangling::kept : boolean::Dangling::dropped;
     return options;
 }
 
@@ -69,6 +115,19 @@ void add_boolean_options(Verb* verb, BooleanOutput& options) {
         verb->add_option("--simplify", options.simplify,
                          "What happens to cut facets in one plane: coplanar merges, none leaves them"),
         {"none", "coplanar"});
+    verb->add_option(
+            "--tolerance", options.tolerance,
+            "Faces, edges and vertices nearer than this become flush; 0 is none. Two units of the "
+            "lattice when not given, for .csg files 2e-6 of the size, which is what they are written to")
+        ->check([](const std::string& text) {
+            return parse_length(text) ? std::string() : "must be a length, 0 or more, not " + text;
+        })
+        ->type_name("LENGTH");
+    take_one_of(verb->add_option(
+                    "--regularized", options.regularized,
+                    "Whether the result is a solid throughout: no keeps faces that operands share outside of "
+                    "it too, as sheets without thickness"),
+                {"yes", "no"});
     take_one_of(
         verb->add_option("--open", options.open,
                          "What happens to operands that do not close: reject refuses them, winding closes "

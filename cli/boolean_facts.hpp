@@ -15,9 +15,10 @@
 namespace octavo::cli {
 
 struct BooleanOutput {
-    std::string output, format, simplify = "coplanar", open = "reject";
+    std::string output, format, simplify = "coplanar", open = "reject", regularized = "yes", tolerance;
 
-    boolean::Options evaluation() const;
+    /// `standard` is the tolerance where none is given.
+    boolean::Options evaluation(boolean::Tolerance standard = {2, boolean::Tolerance::Of::lattice}) const;
 };
 
 void add_boolean_options(Verb* verb, BooleanOutput& options);

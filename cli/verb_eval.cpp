@@ -84,7 +84,8 @@ Result<boolean::Evaluated> evaluate_csg(Session& session, const Context& context
     if (!file) return file.error();
     session.warn(file->warnings);
     return session.timed("evaluate", [&] {
-        return boolean::evaluate(file->expression, options.output.evaluation(), context);
+        return boolean::evaluate(file->expression,
+                                 options.output.evaluation({2e-6, boolean::Tolerance::Of::size}), context);
     });
 }
 

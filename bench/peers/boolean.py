@@ -8,8 +8,10 @@ usage: boolean.py --octavo PROGRAM [--cgal PROGRAM] --models FOLDER [--csv FILE]
 PROGRAM are octavo_boolean_scene and octavo_boolean_cgal (preset bench). Needs numpy; Manifold and trueform are measured
 where the PyPI packages manifold3d and trueform are installed. Every engine runs in a process of its own, pinned to one
 CPU: user CPU seconds (least of the repetitions) and peak memory beyond what loading took. With --two-threads Octavo runs
-once more, for the ratio of wall times of one and two threads, which only a quiet machine can tell. Results are compared: volume, closed, every directed edge once. CASE is a part of a
-case's name.
+once more, for the ratio of wall times of one and two threads, which only a quiet machine can tell. Results are
+compared: volume, closed, every directed edge once. exact_share is the part of Octavo's decisions that the floating-point
+filters left to exact arithmetic; commit is the state of the working tree (build it before). CASE is a part of a case's
+name.
 """
 import argparse
 import csv
@@ -26,7 +28,17 @@ import numpy
 
 ENGINES = ("octavo", "manifold", "trueform", "cgal")
 COLUMNS = ("case", "operation", "input", "engine", "cpu_s", "times_octavo", "peak_mb", "triangles", "volume", "defect",
-           "exact_share", "speed_up_2_threads")
+           "exact_share", "speed_up_2_threads", "commit")
+
+
+def commit():
+    """The commit that is measured; with a plus when files differ from it."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    try:
+        return subprocess.run(["git", "-C", here, "describe", "--always", "--dirty=+", "--exclude=*"], capture_output=True,
+                              text=True, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return ""
 
 
 def user_seconds():
@@ -333,7 +345,7 @@ def main():
     arguments.cpus = os.sched_getaffinity(0)
     os.sched_setaffinity(0, {min(arguments.cpus)})
 
-    rows, ratios = [], {engine: [] for engine in ENGINES}
+    rows, ratios, state = [], {engine: [] for engine in ENGINES}, commit()
     ember = {engine: [] for engine in ENGINES}
     for name, operation, make in cases(arguments.models):
         if arguments.names and not any(part in name for part in arguments.names):
@@ -351,7 +363,7 @@ def main():
                 if measured is None:
                     continue
                 answer, mesh = measured
-                row = {"case": name, "operation": operation, "input": count, "engine": engine}
+                row = {"case": name, "operation": operation, "input": count, "engine": engine, "commit": state}
                 if "error" in answer:
                     row["defect"] = answer["error"]
                 else:

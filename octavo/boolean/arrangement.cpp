@@ -6,6 +6,7 @@
 
 #include <octavo/base/parallel.hpp>
 #include <octavo/boolean/arrangement.hpp>
+#include <octavo/boolean/cells.hpp>
 #include <octavo/boolean/cut_planes.hpp>
 #include <octavo/boolean/subdivision.hpp>
 #include <octavo/exact/orient.hpp>
@@ -118,8 +119,7 @@ Pieces subdivide_facet(const Soup& soup, const Sheet& sheet, const CutPlanes& pl
     return pieces;
 }
 
-/// Labels the cells between borders: which facets of the sheet cover them. Crossing a border of a facet enters or
-/// leaves it.
+/// Labels the triangles of a sheet: which of its facets cover them.
 class CoverSearch {
   public:
     CoverSearch(const Soup& soup, const Plane& plane, const Subdivision& subdivision)
@@ -127,40 +127,10 @@ class CoverSearch {
 
     /// Fills `covers`, and `cover` per triangle of the subdivision: no_index outside of all facets.
     void run(std::vector<std::uint32_t>& cover, std::vector<Pieces::Cover>& covers) {
-        const auto triangles = subdivision_.triangles();
-        std::vector<std::uint32_t> cell(triangles.size(), no_index);
-        std::vector<std::vector<std::uint32_t>> inside;  ///< per cell, the facets that cover it, ascending
-        std::vector<std::uint32_t> starts, stack;
-        // The corner of the surrounding triangle lies in no facet.
-        std::uint32_t outer = 0;
-        while (subdivision_.point_of(triangles[outer].v[0]) != no_index &&
-               subdivision_.point_of(triangles[outer].v[1]) != no_index &&
-               subdivision_.point_of(triangles[outer].v[2]) != no_index)
-            ++outer;
-        inside.emplace_back();
-        cell[outer] = 0;
-        stack.push_back(outer);
-        while (!stack.empty() || !starts.empty()) {
-            if (stack.empty()) stack.push_back(starts.back()), starts.pop_back();
-            const std::uint32_t at = stack.back();
-            stack.pop_back();
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t next = triangles[at].neighbour[k];
-                if (next == no_index || cell[next] != no_index) continue;
-                std::vector<std::uint32_t> facets = inside[cell[at]];
-                if (!toggle(triangles[at].owner[k], facets)) {
-                    cell[next] = cell[at];
-                    stack.push_back(next);
-                } else {
-                    cell[next] = static_cast<std::uint32_t>(inside.size());
-                    inside.push_back(std::move(facets));
-                    stack.push_back(next);
-                }
-            }
-        }
+        const Cells cells = find_cells(subdivision_, is_cut_line);
         std::map<std::vector<std::uint32_t>, std::uint32_t> known;
         std::vector<std::uint32_t> cover_of_cell;
-        for (const std::vector<std::uint32_t>& facets : inside) {
+        for (const std::vector<std::uint32_t>& facets : cells.covers) {
             if (facets.empty()) {
                 cover_of_cell.push_back(no_index);
                 continue;
@@ -169,9 +139,9 @@ class CoverSearch {
             if (is_new) covers.push_back(cover_by(facets));
             cover_of_cell.push_back(place->second);
         }
-        cover.resize(triangles.size());
-        for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle)
-            cover[triangle] = cover_of_cell[cell[triangle]];
+        cover.resize(cells.of_triangle.size());
+        for (std::size_t triangle = 0; triangle < cover.size(); ++triangle)
+            cover[triangle] = cover_of_cell[cells.of_triangle[triangle]];
     }
 
     bool same_way(std::uint32_t facet) const {
@@ -180,21 +150,6 @@ class CoverSearch {
     }
 
   private:
-    bool toggle(std::uint32_t owner, std::vector<std::uint32_t>& facets) const {
-        bool any = false;
-        for (; owner; owner = subdivision_.owner(owner - 1).next) {
-            const std::uint32_t facet = subdivision_.owner(owner - 1).tag;
-            if (facet == is_cut_line) continue;
-            any = true;
-            const auto place = std::lower_bound(facets.begin(), facets.end(), facet);
-            if (place != facets.end() && *place == facet)
-                facets.erase(place);
-            else
-                facets.insert(place, facet);
-        }
-        return any;
-    }
-
     /// Deltas as seen by the first of the facets.
     Pieces::Cover cover_by(const std::vector<std::uint32_t>& facets) const {
         Pieces::Cover cover{facets[0], {}, facets.size() > 1};

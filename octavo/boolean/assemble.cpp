@@ -132,15 +132,6 @@ class FanSplitter {
     std::vector<AboutEdge> about_;
 };
 
-Vec3 world(const Soup& soup, const PointTable& points, PointId point) {
-    if (points.is_vertex(point)) return soup.lattice.to_world(points.vertex(point));
-    const Vec3 at = points.approximation(point);
-    const auto& origin = soup.lattice.origin();
-    const double unit = soup.lattice.unit();
-    return {(static_cast<double>(origin[0]) + at.x) * unit, (static_cast<double>(origin[1]) + at.y) * unit,
-            (static_cast<double>(origin[2]) + at.z) * unit};
-}
-
 /// Where two pairs at one edge share both its vertices, one of them gets a vertex in the middle.
 std::size_t separate_pairs(const std::vector<Pair>& pairs, const Surface& surface, mesh::Mesh& mesh) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
@@ -182,28 +173,52 @@ std::size_t separate_pairs(const std::vector<Pair>& pairs, const Surface& surfac
     return count;
 }
 
-/// Facets with constructed corners whose rounded normal no longer agrees with their plane.
-void find_inverted(const Surface& surface, const Soup& soup, const PointTable& points, Assembled& result) {
-    const mesh::Mesh& mesh = result.mesh;
-    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-        const mesh::Triangle& ids = surface.triangles[i];
-        if (points.is_vertex(ids[0]) && points.is_vertex(ids[1]) && points.is_vertex(ids[2])) continue;
-        const exact::Plane plane = surface.plane(soup, i);
-        const mesh::Triangle& t = mesh.triangles[i];
-        const Vec3 normal =
-            cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
-        const Vec3 expected{static_cast<double>(plane.a()), static_cast<double>(plane.b()),
-                            static_cast<double>(plane.c())};
-        if (dot(normal, expected) > 0) continue;
-        ++result.inverted_facets;
-        if (result.first_inverted.size() < 8) result.first_inverted.push_back(static_cast<std::uint32_t>(i));
+}  // namespace
+
+void append_dangling(const Surface& dangling, const Soup& soup, const RoundedPoints& rounded,
+                     Assembled& result) {
+    struct Side {
+        PointId low, high;
+        std::uint32_t corner;  ///< 3 · facet + k, from which it leaves
+        bool upward;
+    };
+    std::vector<Side> sides;
+    for (std::uint32_t i = 0; i < dangling.triangles.size(); ++i)
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const PointId from = dangling.triangles[i][k], to = dangling.triangles[i][(k + 1) % 3];
+            sides.push_back({std::min(from, to), std::max(from, to), 3 * i + k, from < to});
+        }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.corner < b.corner;
+    });
+    mesh::DisjointSets fans(3 * dangling.triangles.size());
+    const auto next = [](std::uint32_t corner) { return corner / 3 * 3 + (corner + 1) % 3; };
+    for (std::size_t i = 0, end; i < sides.size(); i = end) {
+        for (end = i + 1;
+             end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high;)
+            ++end;
+        if (end - i != 2 || sides[i].upward == sides[i + 1].upward) continue;
+        fans.unite(sides[i].corner, next(sides[i + 1].corner));
+        fans.unite(next(sides[i].corner), sides[i + 1].corner);
+    }
+    std::vector<std::uint32_t> vertex_of_fan(3 * dangling.triangles.size(), no_index);
+    for (std::uint32_t i = 0; i < dangling.triangles.size(); ++i) {
+        mesh::Triangle corners;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            std::uint32_t& vertex = vertex_of_fan[fans.find(3 * i + k)];
+            if (vertex == no_index) {
+                vertex = static_cast<std::uint32_t>(result.mesh.vertices.size());
+                result.mesh.vertices.push_back(rounded.world(dangling.triangles[i][k]));
+            }
+            corners[k] = vertex;
+        }
+        result.mesh.triangles.push_back(corners);
+        result.mesh.sources.push_back(soup.source(dangling.facets[i].soup_facet));
     }
 }
 
-}  // namespace
-
 Assembled assemble(const Surface& surface, const Soup& soup, const PointTable& points,
-                   const std::vector<char>& special, const Context&) {
+                   const RoundedPoints& rounded, const std::vector<char>& special) {
     Assembled result;
     result.mesh.triangles.resize(surface.triangles.size());
     std::vector<PointId> point_of_vertex;
@@ -212,19 +227,10 @@ Assembled assemble(const Surface& surface, const Soup& soup, const PointTable& p
     result.duplicated_vertices = splitter.duplicates;
 
     result.mesh.vertices.reserve(point_of_vertex.size());
-    for (const PointId point : point_of_vertex) {
-        const Vec3 at = world(soup, points, point);
-        result.mesh.vertices.push_back(at);
-        if (points.is_vertex(point)) continue;
-        // Half a unit in the last place of the result, and 4u of the lattice coordinate.
-        const double largest = std::max({std::fabs(at.x), std::fabs(at.y), std::fabs(at.z)});
-        const double moved = largest * 0x1p-53 + exact::universe_side * 0x1p-51 * soup.lattice.unit();
-        result.largest_rounding = std::max(result.largest_rounding, moved);
-    }
+    for (const PointId point : point_of_vertex) result.mesh.vertices.push_back(rounded.world(point));
     result.mesh.sources.reserve(surface.triangles.size());
     for (const Surface::Facet& facet : surface.facets)
         result.mesh.sources.push_back(soup.source(facet.soup_facet));
-    find_inverted(surface, soup, points, result);
     result.split_edges = separate_pairs(splitter.pairs, surface, result.mesh);
     return result;
 }

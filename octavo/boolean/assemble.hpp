@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <octavo/base/context.hpp>
+#include <octavo/boolean/rounded_points.hpp>
 #include <octavo/boolean/surface.hpp>
 #include <octavo/mesh/mesh.hpp>
 
@@ -15,21 +15,22 @@
 // about the edge: parts that only touch come apart. Facets joined by edges at a vertex share one copy of it. If
 // two pairs at one edge still share both its ends, one of them gets a vertex in the middle.
 //
-// Each exact point is rounded once, here; what rounding does to facets is measured and reported.
+// Each exact point is rounded once (rounded_points.hpp), whatever that does to facets (rounding_faults.hpp).
 // Cost: linear; only points where something was cut or touched are looked at closely.
 
 namespace octavo::boolean {
 
 struct Assembled {
     mesh::Mesh mesh;
-    double largest_rounding = 0;  ///< how far rounding may have moved a constructed vertex, in world units
-    std::size_t inverted_facets = 0;            ///< turned over or made flat by rounding
-    std::vector<std::uint32_t> first_inverted;  ///< up to 8 of them
     std::size_t duplicated_vertices = 0;
     std::size_t split_edges = 0;  ///< doubled edges that needed a vertex of their own
 };
 
+/// Appends dangling facets with vertices of their own; they are joined where just two of them run past an edge.
+void append_dangling(const Surface& dangling, const Soup& soup, const RoundedPoints& rounded,
+                     Assembled& result);
+
 Assembled assemble(const Surface& surface, const Soup& soup, const PointTable& points,
-                   const std::vector<char>& special, const Context& context);
+                   const RoundedPoints& rounded, const std::vector<char>& special);
 
 }  // namespace octavo::boolean

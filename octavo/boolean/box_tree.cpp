@@ -97,7 +97,8 @@ void set_empty(BoxNode& node) {
 
 }  // namespace
 
-BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, const Context& context)
+BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin,
+                 const Context& context)
     : facets_(std::move(facets)) {
     if (facets_.empty()) return;
     UninitialisedVector<Keyed> keyed(facets_.size());
@@ -113,11 +114,11 @@ BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, const Cont
     sort_runs(soup, keyed);
     for (std::size_t i = 0; i < keyed.size(); ++i) facets_[i] = keyed[i].facet;
     keyed = {};
-    fill_blocks(soup, context);
+    fill_blocks(soup, margin, context);
     build_levels(context);
 }
 
-void BoxTree::fill_blocks(const Soup& soup, const Context& context) {
+void BoxTree::fill_blocks(const Soup& soup, std::int32_t margin, const Context& context) {
     const std::size_t count = (facets_.size() + width - 1) / width;
     blocks_.resize(count);
     levels_.emplace_back(count);
@@ -141,8 +142,8 @@ void BoxTree::fill_blocks(const Soup& soup, const Context& context) {
                 for (int lane = 0; lane < width; ++lane) {
                     const std::int32_t a = block.point[0][axis][lane], b = block.point[1][axis][lane],
                                        c = block.point[2][axis][lane];
-                    node.low[axis][lane] = std::min(a, std::min(b, c));
-                    node.high[axis][lane] = std::max(a, std::max(b, c));
+                    node.low[axis][lane] = std::min(a, std::min(b, c)) - margin;
+                    node.high[axis][lane] = std::max(a, std::max(b, c)) + margin;
                 }
         }
     });

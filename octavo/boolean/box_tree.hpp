@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -33,8 +34,17 @@ class BoxTree {
     static constexpr int width = BoxNode::width;
 
     BoxTree() = default;
-    /// Of the facets listed.
-    BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, const Context& context);
+    /// Of the facets listed; boxes are larger by `margin` on every side.
+    BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin, const Context& context);
+
+    /// Calls `visit(facet)` for the facets whose boxes meet the closed box from `low` to `high`.
+    template <class Visit>
+    void for_each_meeting(exact::Point low, exact::Point high, const Visit& visit) const {
+        if (empty()) return;
+        BoxNode probe;
+        for (int axis = 0; axis < 3; ++axis) probe.low[axis][0] = low[axis], probe.high[axis][0] = high[axis];
+        for_each_meeting(probe, top(), 0, visit);
+    }
 
     /// Node n of level 0 holds the facets at positions 8 n to 8 n + 7; box k of node n of a higher level holds
     /// node 8 n + k of the level below. The highest level has one node.
@@ -46,7 +56,18 @@ class BoxTree {
     const FacetBlock& block(std::uint32_t number) const { return blocks_[number]; }
 
   private:
-    void fill_blocks(const Soup& soup, const Context& context);
+    template <class Visit>
+    void for_each_meeting(const BoxNode& probe, std::uint32_t level, std::uint32_t number,
+                          const Visit& visit) const {
+        for (unsigned hits = meeting(node(level, number), probe, 0); hits; hits &= hits - 1) {
+            const std::uint32_t child = number * width + static_cast<std::uint32_t>(std::countr_zero(hits));
+            if (level == 0)
+                visit(facets_[child]);
+            else
+                for_each_meeting(probe, level - 1, child, visit);
+        }
+    }
+    void fill_blocks(const Soup& soup, std::int32_t margin, const Context& context);
     void build_levels(const Context& context);
 
     std::vector<std::uint32_t> facets_;

@@ -48,12 +48,13 @@ Sign side(const Plane& plane, const NearCorner& near) {
 class Classifier {
   public:
     Classifier(const Complex& complex, const PointTable& points, const FacetTree& tree,
-               const Patches& patches, const Program& program)
+               const Patches& patches, const Program& program, Dangling dangling)
         : complex_(complex),
           points_(points),
           tree_(tree),
           patches_(patches),
           program_(program),
+          keeps_dangling_(dangling == Dangling::kept),
           indicator_(program) {}
 
     Result<Classification> run(const Context& context) {
@@ -68,6 +69,7 @@ class Classifier {
         winding_.assign(operands, 0);
         fingerprint_of_.assign(regions_, 0);
         inside_.assign(regions_, unvisited);
+        dangling_.assign(patches_.count, 0);
         Classification result;
         for (std::uint32_t region = 0; region < regions_; ++region) {
             if (inside_[region] != unvisited) continue;
@@ -78,7 +80,9 @@ class Classifier {
         }
         for (std::uint32_t patch = 0; patch < patches_.count; ++patch) {
             const bool front = inside_[region_[2 * patch]] == 1, back = inside_[region_[2 * patch + 1]] == 1;
-            result.of_patch.push_back(front == back ? Role::dropped : back ? Role::kept : Role::reversed);
+            result.of_patch.push_back(front != back      ? (back ? Role::kept : Role::reversed)
+                                      : dangling_[patch] ? Role::dangling
+                                                         : Role::dropped);
         }
         return result;
     }
@@ -144,6 +148,7 @@ class Classifier {
     std::uint32_t find_seed(std::uint32_t start);
     void add_ray(std::uint32_t seed);
     void change(std::span<const Delta> deltas, int sign);
+    bool holds_between(std::span<const Delta> deltas, int sign);
     void enter(std::uint32_t region) {
         fingerprint_of_[region] = fingerprint_;
         inside_[region] = indicator_.value() ? 1 : 0;
@@ -154,6 +159,7 @@ class Classifier {
     const FacetTree& tree_;
     const Patches& patches_;
     const Program& program_;
+    const bool keeps_dangling_;
 
     std::uint32_t regions_ = 0;
     std::vector<std::uint32_t> region_;  ///< of each patch side
@@ -163,6 +169,7 @@ class Classifier {
     std::vector<std::uint32_t> seed_;       ///< of each patch: a triangle from which a ray may start
     std::vector<std::uint64_t> fingerprint_of_;
     std::vector<char> inside_;
+    std::vector<char> dangling_;  ///< per patch
     std::vector<std::uint32_t> stack_;
     std::vector<char> gathered_;
     std::vector<std::pair<TransitionId, int>> ray_;  ///< what the component's ray crossed
@@ -197,6 +204,21 @@ void Classifier::change(std::span<const Delta> deltas, int sign) {
             weight_of(delta.operand) * static_cast<std::uint64_t>(static_cast<std::int64_t>(after) - before);
         if ((before > 0) != (after > 0)) indicator_.set(delta.operand, after > 0);
     }
+}
+
+/// Whether the expression holds on a patch beyond which the winding numbers have changed, each operand taken with its
+/// boundary.
+bool Classifier::holds_between(std::span<const Delta> deltas, int sign) {
+    if (deltas.size() < 2) return false;  // the operand holds on one side, and so does the expression
+    const auto enters = [&](const Delta& delta) {
+        return winding_[delta.operand] <= 0 && winding_[delta.operand] + sign * delta.turns > 0;
+    };
+    for (const Delta& delta : deltas)
+        if (enters(delta)) indicator_.set(delta.operand, true);
+    const bool holds = indicator_.value();
+    for (const Delta& delta : deltas)
+        if (enters(delta)) indicator_.set(delta.operand, false);
+    return holds;
 }
 
 /// A triangle of the component of `start` from which a ray may start.
@@ -275,6 +297,7 @@ Status Classifier::walk(std::uint32_t start) {
         const std::uint32_t other = region_[s ^ 1];
         const std::span<const Delta> deltas = complex_.transitions.of(transition_[s / 2]);
         const int sign = s % 2 ? -1 : 1;  // from the front, the winding behind is greater by the change
+        if (keeps_dangling_ && inside_[step.region] == 0 && holds_between(deltas, sign)) dangling_[s / 2] = 1;
         if (inside_[other] != unvisited) {
             std::uint64_t expected = fingerprint_;
             for (const Delta& delta : deltas)
@@ -294,8 +317,9 @@ Status Classifier::walk(std::uint32_t start) {
 }  // namespace
 
 Result<Classification> classify(const Complex& complex, const PointTable& points, const FacetTree& tree,
-                                const Patches& patches, const Program& program, const Context& context) {
-    return Classifier(complex, points, tree, patches, program).run(context);
+                                const Patches& patches, const Program& program, Dangling dangling,
+                                const Context& context) {
+    return Classifier(complex, points, tree, patches, program, dangling).run(context);
 }
 
 }  // namespace octavo::boolean

@@ -21,6 +21,9 @@
 // a corner of a facet, inside it, along an axis to the outside. "Infinitely near" is symbolic: the point is
 // v + ε (a - v) + ε² (b - v), so that it is on no plane and under no edge but its own facet's.
 //
+// A patch may belong to the result although neither side of it does: where closed operands share a face, both hold on
+// it and nowhere next to it. Such patches are *dangling*; regularised results do without them.
+//
 // Invariant, checked at every patch: a region reached twice has the same winding numbers (a 64-bit sum of random
 // multiples of them is compared).
 // Cost: linear in patches times the depth of the expression; one ray a component.
@@ -29,8 +32,14 @@ namespace octavo::boolean {
 
 enum class Role : std::int8_t {
     dropped = 0,
-    kept = 1,      ///< bounds the result, its front outside
-    reversed = -1  ///< bounds the result, its front inside
+    kept = 1,       ///< bounds the result, its front outside
+    reversed = -1,  ///< bounds the result, its front inside
+    dangling = 2    ///< in the result, with neither side of it
+};
+
+enum class Dangling : std::uint8_t {
+    dropped,  ///< results are regularised
+    kept,
 };
 
 struct Classification {
@@ -38,8 +47,10 @@ struct Classification {
     std::size_t components = 0;  ///< one ray each
 };
 
+/// An operand holds on a patch when it holds on either side of it.
 /// Errors: internal when winding numbers contradict each other; bad_input when the result would be unbounded.
 Result<Classification> classify(const Complex& complex, const PointTable& points, const FacetTree& tree,
-                                const Patches& patches, const Program& program, const Context& context);
+                                const Patches& patches, const Program& program, Dangling dangling,
+                                const Context& context);
 
 }  // namespace octavo::boolean

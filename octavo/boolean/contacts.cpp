@@ -35,7 +35,7 @@ struct Found {
     std::vector<exact::EdgePoint> edge_points;
     std::vector<Overlap> overlaps;
     std::vector<Touch> touches;
-    std::size_t pairs = 0;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> near;
 };
 
 struct Facet {
@@ -143,7 +143,7 @@ std::array<int128, 3> values_on(const Plane& plane, const Facet& facet) {
 }
 
 void meet(const Facet& first, const Facet& second, Found& found) {
-    ++found.pairs;
+    found.near.push_back({first.id, second.id});
     int shared = 0, shared_first = 0, shared_second = 0;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -202,7 +202,7 @@ void name_points(const Found& found, const Soup& soup, PointTable& points, Conta
     }
     for (const Touch& touch : found.touches) add(touch.facet, touch.other, touch.vertex, touch.vertex);
     contacts.overlaps.insert(contacts.overlaps.end(), found.overlaps.begin(), found.overlaps.end());
-    contacts.pairs_tested += found.pairs;
+    contacts.near.insert(contacts.near.end(), found.near.begin(), found.near.end());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <octavo/boolean/facet_tree.hpp>
@@ -39,7 +40,8 @@ struct Overlap {
 struct Contacts {
     std::vector<Cut> cuts;  ///< each segment twice, once for either facet
     std::vector<Overlap> overlaps;
-    std::size_t pairs_tested = 0;
+    /// All pairs that the tree's filter let through, those that meet among them.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> near;
 };
 
 /// Cancellation leaves the result incomplete.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include <octavo/boolean/assemble.hpp>
 #include <octavo/boolean/evaluate.hpp>
+#include <octavo/boolean/rounding_faults.hpp>
 #include <octavo/boolean/simplify.hpp>
+#include <octavo/boolean/thin_shells.hpp>
 #include <octavo/exact/counters.hpp>
 
 namespace octavo::boolean {
@@ -45,21 +49,77 @@ void note_input(const Soup& soup, Report& report) {
     report.warnings = soup.warnings;
 }
 
-void note_output(const Assembled& assembled, Report& report) {
-    report.largest_rounding = assembled.largest_rounding;
-    report.inverted_facets = assembled.inverted_facets;
-    report.first_inverted = assembled.first_inverted;
-    report.duplicated_vertices = assembled.duplicated_vertices;
-    if (assembled.mesh.triangles.empty()) report.warnings.push_back("the result is empty");
-    if (assembled.inverted_facets > 0) {
-        std::string ids;
-        for (const std::uint32_t facet : assembled.first_inverted)
-            ids += (ids.empty() ? "" : ", ") + std::to_string(facet);
-        report.warnings.push_back("rounding to doubles turned over or flattened " +
-                                  std::to_string(assembled.inverted_facets) +
-                                  " facets of the result: " + ids +
-                                  (assembled.inverted_facets > assembled.first_inverted.size() ? ", …" : ""));
+/// A tolerance that reaches farther than this joins the operands into nothing much.
+constexpr double most_units = exact::universe_side / 16.0;
+
+Result<double> lattice_units(const Tolerance& tolerance, const Soup& soup) {
+    double units = tolerance.value;
+    if (tolerance.unit == Tolerance::Of::length) units /= soup.lattice.unit();
+    if (tolerance.unit == Tolerance::Of::size) {
+        exact::Point low{exact::universe_side, exact::universe_side, exact::universe_side}, high{};
+        for (const exact::Point point : soup.points) {
+            low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
+            high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
+        }
+        units *= std::max({high.x - low.x, high.y - low.y, high.z - low.z, 0});
     }
+    if (!(units >= 0 && units <= most_units))
+        return Error{ErrorCode::bad_input,
+                     "the tolerance must lie between 0 and a sixteenth of the operands' size",
+                     {}};
+    return units;
+}
+
+void note_flush(const FlushReport& flush, Report& report) {
+    if (flush.folded_facets > 0)
+        report.warnings.push_back(std::to_string(flush.folded_facets) +
+                                  " facets lie near others within the tolerance but could not be joined to "
+                                  "them; slivers may remain");
+    else if (!flush.settled)
+        report.warnings.push_back("after " + std::to_string(flush.rounds) +
+                                  " rounds something is still nearer than the tolerance without touching");
+}
+
+/// Facets at fault that go with their shells are none any more.
+void drop_thin(Assembled& assembled, RoundingFaults& faults, FlushReport& flush) {
+    const ThinShells thin = drop_thin_shells(assembled.mesh, flush.tolerance);
+    if (thin.shells == 0) return;
+    flush.removed_shells = thin.shells;
+    RoundingFaults left;
+    left.moved_points = faults.moved_points, left.farthest_move = faults.farthest_move;
+    for (const std::uint32_t facet : faults.inverted)
+        if (thin.number[facet] != no_index) left.inverted.push_back(thin.number[facet]);
+    for (const auto& [first, second] : faults.crossing)
+        if (thin.number[first] != no_index && thin.number[second] != no_index)
+            left.crossing.push_back({thin.number[first], thin.number[second]});
+    faults = std::move(left);
+}
+
+void note_faults(const RoundingFaults& faults, Report& report) {
+    constexpr std::size_t named = 8;
+    report.mended_points = faults.moved_points;
+    report.inverted_facets = faults.inverted.size();
+    report.crossing_facets = faults.crossing.size();
+    for (std::size_t i = 0; i < std::min(named, faults.inverted.size()); ++i)
+        report.first_inverted.push_back(faults.inverted[i]);
+    for (std::size_t i = 0; i < std::min(named, faults.crossing.size()); ++i)
+        report.first_crossing.push_back(faults.crossing[i]);
+    const auto warn = [&](std::size_t count, std::size_t listed, std::string sentence, const auto& name) {
+        if (count == 0) return;
+        for (std::size_t i = 0; i < listed; ++i) sentence += (i ? ", " : "") + name(i);
+        report.warnings.push_back(sentence + (count > listed ? ", …" : ""));
+    };
+    warn(report.inverted_facets, report.first_inverted.size(),
+         "rounding to doubles turned over or flattened " + std::to_string(report.inverted_facets) +
+             " facets of the result: ",
+         [&](std::size_t i) { return std::to_string(report.first_inverted[i]); });
+    warn(report.crossing_facets, report.first_crossing.size(),
+         "rounding to doubles made " + std::to_string(report.crossing_facets) +
+             " pairs of facets of the result cross: ",
+         [&](std::size_t i) {
+             return std::to_string(report.first_crossing[i].first) + " and " +
+                    std::to_string(report.first_crossing[i].second);
+         });
 }
 
 }  // namespace
@@ -76,14 +136,23 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     if (!soup) return soup.error();
     note_input(*soup, report);
 
+    if (options.tolerance.value != 0) {
+        phases.begin("flush", 0.1);
+        const Result<double> tolerance = lattice_units(options.tolerance, *soup);
+        if (!tolerance) return tolerance.error();
+        report.flush = make_flush(*soup, *tolerance, context);
+        if (context.cancelled()) return Context::cancelled_error();
+        note_flush(report.flush, report);
+    }
+
     phases.begin("index", 0.15);
-    const FacetTree tree(*soup, context);
+    const FacetTree tree(*soup, context, contact_reach(soup->lattice));
 
     phases.begin("meet", 0.25);
     PointTable points(*soup);
     const Contacts contacts = find_contacts(*soup, tree, points, context);
     if (context.cancelled()) return Context::cancelled_error();
-    report.pairs_tested = contacts.pairs_tested;
+    report.pairs_tested = contacts.near.size();
 
     phases.begin("cut", 0.5);
     const Complex complex = arrange(*soup, contacts, points, context);
@@ -98,17 +167,33 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     report.patches = patches->count;
 
     phases.begin("classify", 0.8);
-    const Result<Classification> classification = classify(complex, points, tree, *patches, program, context);
+    const Result<Classification> classification =
+        classify(complex, points, tree, *patches, program, options.dangling, context);
     if (!classification) return classification.error();
     report.components = classification->components;
 
     phases.begin("assemble", 0.85);
     Surface surface = select(complex, *patches, *classification);
     if (options.simplify == Simplify::coplanar) surface = merge_coplanar(surface, *soup, points, context);
+    RoundedPoints rounded(*soup, points);
+    RoundingFaults faults = mend_rounding(surface, *soup, contacts.near, rounded, context);
+    if (context.cancelled()) return Context::cancelled_error();
     Assembled assembled =
-        assemble(surface, *soup, points, special_points(surface, *patches, points.size()), context);
+        assemble(surface, *soup, points, rounded, special_points(surface, *patches, points.size()));
+    if (report.flush.tolerance > 0) drop_thin(assembled, faults, report.flush);
+    if (options.dangling == Dangling::kept) {
+        Surface dangling = select_dangling(complex, *patches, *classification);
+        if (options.simplify == Simplify::coplanar)
+            dangling = merge_coplanar(dangling, *soup, points, context);
+        append_dangling(dangling, *soup, rounded, assembled);
+        report.dangling_facets = dangling.triangles.size();
+        report.closed = dangling.triangles.empty();
+    }
     phases.end();
-    note_output(assembled, report);
+    report.largest_rounding = rounded.largest_rounding() + faults.farthest_move * soup->lattice.unit();
+    report.duplicated_vertices = assembled.duplicated_vertices;
+    if (assembled.mesh.triangles.empty()) report.warnings.push_back("the result is empty");
+    note_faults(faults, report);
     report.exact_fallbacks = exact::predicate_counts().exact() - exact_before;
     result.mesh = std::move(assembled.mesh);
     return result;

@@ -38,13 +38,15 @@ Vectors cross(const A& a, const B& b) {
 Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-Reals bound_for(const Vectors& axis) {
-    return margin * (magnitude(axis.x) + magnitude(axis.y) + magnitude(axis.z));
+/// Projections on `axis` say nothing when they differ by less: the sum of magnitudes is not less than the length.
+Reals bound_for(const Vectors& axis, double slack) {
+    return slack * (magnitude(axis.x) + magnitude(axis.y) + magnitude(axis.z));
 }
 /// One facet and four others, from lane `first` on, relative to the first corner of the one.
 class PairTest {
   public:
-    PairTest(const FacetBlock& block, int lane, const FacetBlock& others, int first) {
+    PairTest(const FacetBlock& block, int lane, const FacetBlock& others, int first, double reach)
+        : slack_(margin + reach) {
         for (int k = 0; k < 3; ++k) {
             own_corner_[k] = static_cast<std::int32_t>(block.corner[k][lane]);
             std::memcpy(&corner_[k], others.corner[k] + first, sizeof(Words));
@@ -69,7 +71,7 @@ class PairTest {
     /// All corners of the facet, shared ones aside, on one side of the other's plane.
     Flags apart_by_other_planes() const {
         const Vectors normal = cross(other_[1] - other_[0], other_[2] - other_[0]);
-        const Reals bound = bound_for(normal);
+        const Reals bound = bound_for(normal, slack_);
         Flags front = {}, back = {};
         front = ~front, back = ~back;
         for (int k = 0; k < 3; ++k) {
@@ -100,7 +102,7 @@ class PairTest {
             const Vector edge{q.x - p.x, q.y - p.y, q.z - p.z}, opposite{r.x - p.x, r.y - p.y, r.z - p.z};
             for (int j = 0; j < 3; ++j) {
                 const Vectors axis = cross(edge, other_edge[j]);
-                const Reals bound = 2 * bound_for(axis);
+                const Reals bound = 2 * bound_for(axis, slack_);
                 const Reals end = dot(axis, opposite), from = dot(axis, other_[j] - p),
                             to = dot(axis, other_[(j + 2) % 3] - p);
                 const Reals zero = {};
@@ -120,7 +122,7 @@ class PairTest {
         for (int edge = 0; edge < 3; ++edge) {
             const Vector &p = own_[edge], &q = own_[(edge + 1) % 3];
             const double a = own_turn * (q.*v - p.*v), b = own_turn * (p.*u - q.*u);
-            const double bound = margin * (std::fabs(a) + std::fabs(b));
+            const double bound = slack_ * (std::fabs(a) + std::fabs(b));
             const std::int32_t first = own_corner_[edge], second = own_corner_[(edge + 1) % 3];
             Flags beyond = {};
             beyond = ~beyond;
@@ -138,7 +140,7 @@ class PairTest {
         for (int edge = 0; edge < 3; ++edge) {
             const Vectors &p = other_[edge], &q = other_[(edge + 1) % 3];
             const Reals a = sign * (q.*vs - p.*vs), b = sign * (p.*us - q.*us);
-            const Reals bound = margin * (magnitude(a) + magnitude(b));
+            const Reals bound = slack_ * (magnitude(a) + magnitude(b));
             Flags beyond = turn != 0.0;  // edge-on, the sign says nothing
             for (int k = 0; k < 3; ++k) {
                 const Reals value = a * (own_[k].*u - p.*us) + b * (own_[k].*v - p.*vs);
@@ -151,6 +153,7 @@ class PairTest {
         return apart;
     }
 
+    double slack_;
     Vector own_[3];     ///< corners of the facet
     Vectors other_[3];  ///< corners of the others
     std::int32_t own_corner_[3];
@@ -190,7 +193,7 @@ unsigned across_plane(const FacetBlock& block, const FacetPlanes& planes, int la
 
 }  // namespace
 
-FacetPlanes::FacetPlanes(const FacetBlock& block) {
+FacetPlanes::FacetPlanes(const FacetBlock& block, double reach) {
     for (int lane = 0; lane < FacetBlock::width; ++lane) {
         const auto at = [&](int corner, int axis) { return double(block.point[corner][axis][lane]); };
         const auto edge = [&](int corner, int axis) { return at(corner, axis) - at(0, axis); };
@@ -200,19 +203,19 @@ FacetPlanes::FacetPlanes(const FacetBlock& block) {
         }
         offset[lane] =
             -(normal[0][lane] * at(0, 0) + normal[1][lane] * at(0, 1) + normal[2][lane] * at(0, 2));
-        bound[lane] =
-            margin * (std::fabs(normal[0][lane]) + std::fabs(normal[1][lane]) + std::fabs(normal[2][lane]));
+        bound[lane] = (margin + reach) *
+                      (std::fabs(normal[0][lane]) + std::fabs(normal[1][lane]) + std::fabs(normal[2][lane]));
     }
 }
 
 unsigned may_meet(const FacetBlock& block, const FacetPlanes& planes, int lane, const FacetBlock& others,
-                  unsigned candidates) {
+                  unsigned candidates, double reach) {
     candidates = across_plane(block, planes, lane, others, candidates);
     unsigned left = 0;
     for (int first = 0; first < FacetBlock::width; first += half_block) {
         unsigned some = candidates >> first & 0xf;
         if (!some) continue;
-        const PairTest test(block, lane, others, first);
+        const PairTest test(block, lane, others, first, reach);
         some &= ~bits(test.apart_by_other_planes());
         if (some) some &= ~bits(test.apart_in_projection());
         if (some) some &= ~bits(test.apart_by_edges(some));

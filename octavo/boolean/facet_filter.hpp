@@ -11,6 +11,8 @@
 // of their yield, and each looks only at what the ones before have left: neighbours in a smooth surface go by the first
 // plane, slivers of one fan by an edge, slivers of two fans that cross each other by a product of edges.
 //
+// With a `reach`, facets must be farther apart than that to be thrown out: the same tests find what is nearly in contact.
+//
 // Exactness: coordinates have 26 bits, so differences, products of two and normals (53 bits) are exact doubles. Only
 // a product with a third coordinate and its sums round; `margin` bounds that. Nothing is thrown out within it.
 // Cost: about 100 instructions for a plane and eight facets; most pairs see nothing else.
@@ -31,12 +33,12 @@ struct alignas(32) FacetPlanes {
     double bound[FacetBlock::width];  ///< values that are less than this say nothing
 
     FacetPlanes() = default;
-    explicit FacetPlanes(const FacetBlock& block);
+    explicit FacetPlanes(const FacetBlock& block, double reach = 0);
 };
 
-/// Of the facets `candidates` of `others` (bit k is lane k), those that may meet facet `lane` of `block` in more than
-/// corners and edges that they share. `planes` are those of `block`.
+/// Of the facets `candidates` of `others` (bit k is lane k), those that may meet facet `lane` of `block`, or come nearer
+/// to it than `reach`, in more than corners and edges that they share. `planes` are those of `block`, for the same reach.
 unsigned may_meet(const FacetBlock& block, const FacetPlanes& planes, int lane, const FacetBlock& others,
-                  unsigned candidates);
+                  unsigned candidates, double reach = 0);
 
 }  // namespace octavo::boolean

@@ -6,7 +6,7 @@
 
 namespace octavo::boolean {
 
-FacetPrism::FacetPrism(const FacetBlock& block, int lane) {
+FacetPrism::FacetPrism(const FacetBlock& block, int lane, double reach) {
     double point[3][3];
     for (int corner = 0; corner < 3; ++corner)
         for (int axis = 0; axis < 3; ++axis) point[corner][axis] = block.point[corner][axis][lane];
@@ -19,8 +19,8 @@ FacetPrism::FacetPrism(const FacetBlock& block, int lane) {
     const auto set = [&](Plane& plane, const double(&at)[3]) {
         plane.offset = -(plane.normal[0] * at[0] + plane.normal[1] * at[1] + plane.normal[2] * at[2]);
         // As in facet_filter.cpp: coordinates of 26 bits, a normal of 53, three products and sums that round.
-        plane.bound =
-            0x1p-23 * (std::fabs(plane.normal[0]) + std::fabs(plane.normal[1]) + std::fabs(plane.normal[2]));
+        plane.bound = (0x1p-23 + reach) *
+                      (std::fabs(plane.normal[0]) + std::fabs(plane.normal[1]) + std::fabs(plane.normal[2]));
     };
     for (int axis = 0; axis < 3; ++axis) {
         planes_[0].normal[axis] = normal[axis];

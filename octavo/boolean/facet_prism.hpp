@@ -14,7 +14,8 @@ namespace octavo::boolean {
 
 class FacetPrism {
   public:
-    FacetPrism(const FacetBlock& block, int lane);
+    /// Boxes count as met when they are within `reach`.
+    FacetPrism(const FacetBlock& block, int lane, double reach = 0);
 
     /// Those of the boxes `candidates` of `node` (bit k is lane k) that the facet may meet.
     unsigned meeting(const BoxNode& node, unsigned candidates) const;

@@ -26,7 +26,7 @@ std::int32_t longest_side(const Soup& soup, std::uint32_t facet) {
 
 }  // namespace
 
-FacetTree::FacetTree(const Soup& soup, const Context& context) {
+FacetTree::FacetTree(const Soup& soup, const Context& context, double reach) : reach_(reach) {
     const double limit =
         long_ratio * exact::universe_side / std::sqrt(static_cast<double>(soup.facets.size()) + 1);
     std::vector<char> is_long(soup.facets.size());
@@ -38,8 +38,10 @@ FacetTree::FacetTree(const Soup& soup, const Context& context) {
     ordinary.reserve(is_long.size());
     for (std::uint32_t facet = 0; facet < is_long.size(); ++facet)
         (is_long[facet] ? long_ones : ordinary).push_back(facet);
-    ordinary_ = BoxTree(soup, std::move(ordinary), context);
-    long_ = BoxTree(soup, std::move(long_ones), context);
+    // Of either box. Corners are integers: boxes that do not meet are a unit apart.
+    const auto margin = reach < 1 ? 0 : static_cast<std::int32_t>(std::ceil(reach / 2));
+    ordinary_ = BoxTree(soup, std::move(ordinary), margin, context);
+    long_ = BoxTree(soup, std::move(long_ones), margin, context);
 }
 
 std::vector<FacetTree::Task> FacetTree::pair_tasks(std::size_t count) const {

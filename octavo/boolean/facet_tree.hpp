@@ -25,7 +25,8 @@ namespace octavo::boolean {
 class FacetTree {
   public:
     FacetTree() = default;
-    explicit FacetTree(const Soup& soup, const Context& context = {});
+    /// With a `reach`, pairs that come nearer to each other than that, in lattice units, are found as well.
+    explicit FacetTree(const Soup& soup, const Context& context = {}, double reach = 0);
 
     /// A part of all pairs: either nodes `first` <= `second` of one level of the ordinary facets, or the long
     /// facets at the positions [first, second).
@@ -47,7 +48,7 @@ class FacetTree {
             return;
         }
         for (std::uint32_t position = task.first; position < task.second; ++position) {
-            const LongFacet facet(long_, position);
+            const LongFacet facet(long_, position, reach_);
             meet_long(facet, ordinary_, 0, visit);
             meet_long(facet, long_, position + 1, visit);
         }
@@ -71,13 +72,13 @@ class FacetTree {
     };
 
     struct LongFacet {
-        LongFacet(const BoxTree& tree, std::uint32_t position)
+        LongFacet(const BoxTree& tree, std::uint32_t position, double reach)
             : facet(tree.facet(position)),
               lane(static_cast<int>(position % width)),
               block(tree.block(position / width)),
               box(tree.node(0, position / width)),
-              planes(block),
-              prism(block, lane) {}
+              planes(block, reach),
+              prism(block, lane, reach) {}
         std::uint32_t facet;
         int lane;
         const FacetBlock& block;
@@ -102,8 +103,9 @@ class FacetTree {
                           current, visit);
                 continue;
             }
-            if (current.block != first) current = {first, FacetPlanes(ordinary_.block(first))};
-            hits = may_meet(ordinary_.block(first), current.planes, lane, ordinary_.block(second), hits);
+            if (current.block != first) current = {first, FacetPlanes(ordinary_.block(first), reach_)};
+            hits =
+                may_meet(ordinary_.block(first), current.planes, lane, ordinary_.block(second), hits, reach_);
             for (; hits; hits &= hits - 1)
                 visit(ordinary_.facet(a),
                       ordinary_.facet(second * width + static_cast<std::uint32_t>(std::countr_zero(hits))));
@@ -124,7 +126,8 @@ class FacetTree {
             hits = facet.prism.meeting(node, hits);
         } else {
             if (begin > number * width) hits &= ~0u << (begin - number * width);
-            if (hits) hits = may_meet(facet.block, facet.planes, facet.lane, tree.block(number), hits);
+            if (hits)
+                hits = may_meet(facet.block, facet.planes, facet.lane, tree.block(number), hits, reach_);
         }
         for (; hits; hits &= hits - 1) {
             const std::uint32_t child = number * width + static_cast<std::uint32_t>(std::countr_zero(hits));
@@ -153,6 +156,7 @@ class FacetTree {
         }
     }
 
+    double reach_ = 0;
     BoxTree ordinary_, long_;
 };
 

@@ -58,6 +58,9 @@ class PointTable {
         return constructed.kind == Constructed::lattice ? &constructed.cell : nullptr;
     }
 
+    /// The unit cell that holds a constructed point, by its low corner.
+    exact::Point cell(PointId id) const { return constructed_[id - soup_.points.size()].cell; }
+
     /// Lattice coordinates; exact for vertices, else off by at most 4u times themselves.
     Vec3 approximation(PointId id) const {
         return with(id, [](const auto& point) { return exact::homogeneous(point).approximation(); });

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/boolean/cells.hpp>
 #include <octavo/boolean/simplify.hpp>
 #include <octavo/boolean/subdivision.hpp>
 #include <octavo/mesh/disjoint_sets.hpp>
@@ -177,17 +178,26 @@ class CoplanarMerge {
         return regions;
     }
 
-    /// The region's triangles, from its border alone.
-    std::vector<mesh::Triangle> triangulate(Region& region, Subdivision& subdivision) const {
+    /// The soup facets that the region is in, ascending.
+    std::vector<std::uint32_t> soup_facets(const Region& region) const {
         std::vector<std::uint32_t> facets;
         for (const std::uint32_t triangle : region.triangles)
             facets.push_back(surface_.facets[triangle].soup_facet);
         std::sort(facets.begin(), facets.end());
         facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+        return facets;
+    }
+
+    /// The region's triangles, from its border alone.
+    std::vector<mesh::Triangle> triangulate(Region& region, Subdivision& subdivision) const {
         const Plane plane = surface_.plane(soup_, region.triangles[0]);
-        subdivision.begin_round(plane, soup_, facets);
+        subdivision.begin_round(plane, soup_, soup_facets(region));
         std::vector<Subdivision::PointOnLine> points;
         for (const auto& [from, to] : region.border) points.push_back({from, Subdivision::no_line});
+        // A point inside may be needed too: something touches the region there.
+        for (const std::uint32_t triangle : region.triangles)
+            for (const PointId point : surface_.triangles[triangle])
+                if (!needless_[number_of_[point]]) points.push_back({point, Subdivision::no_line});
         subdivision.add_points(points);
         // A border that the region has on both sides does not lead out of it.
         constexpr std::uint32_t border = 0, slit = 1;
@@ -201,31 +211,10 @@ class CoplanarMerge {
         subdivision.refine();
 
         const auto all = subdivision.triangles();
-        std::vector<char> state(all.size(), unknown);
-        std::vector<std::uint32_t> stack;
-        std::uint32_t outer = 0;
-        const auto is_outer = [&](const Subdivision::Triangle& t) {
-            return subdivision.point_of(t.v[0]) == no_index || subdivision.point_of(t.v[1]) == no_index ||
-                   subdivision.point_of(t.v[2]) == no_index;
-        };
-        while (!is_outer(all[outer])) ++outer;
-        state[outer] = outside;
-        stack.push_back(outer);
-        while (!stack.empty()) {
-            const std::uint32_t at = stack.back();
-            stack.pop_back();
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t next = all[at].neighbour[k];
-                if (next == no_index || state[next] != unknown) continue;
-                const std::uint32_t owner = all[at].owner[k];
-                const bool crossed = owner && subdivision.owner(owner - 1).tag == border;
-                state[next] = crossed ? (state[at] == inside ? outside : inside) : state[at];
-                stack.push_back(next);
-            }
-        }
+        const Cells cells = find_cells(subdivision, slit);
         std::vector<mesh::Triangle> triangles;
         for (std::size_t i = 0; i < all.size(); ++i)
-            if (state[i] == inside)
+            if (!cells.covers[cells.of_triangle[i]].empty())
                 triangles.push_back({subdivision.point_of(all[i].v[0]), subdivision.point_of(all[i].v[1]),
                                      subdivision.point_of(all[i].v[2])});
         return triangles;
@@ -248,8 +237,14 @@ class CoplanarMerge {
             for (const std::uint32_t triangle : regions[i].triangles)
                 if (surface_.facets[triangle].soup_facet < facet.soup_facet)
                     facet = surface_.facets[triangle];
-            if (regions[i].triangles.size() == 1)
+            if (regions[i].triangles.size() == 1) {
                 triangles[i] = {surface_.triangles[regions[i].triangles[0]]};
+            } else {
+                const std::vector<std::uint32_t> facets = soup_facets(regions[i]);
+                if (facets.size() > 1)
+                    for (const std::uint32_t part : facets)
+                        result.merged.emplace_back(part, std::uint32_t{facet.soup_facet});
+            }
             for (const mesh::Triangle& triangle : triangles[i]) {
                 result.triangles.push_back(triangle);
                 result.facets.push_back(facet);
@@ -257,8 +252,6 @@ class CoplanarMerge {
         }
         return result;
     }
-
-    static constexpr char unknown = 0, outside = 1, inside = 2;
 
     const Surface& surface_;
     const Soup& soup_;

@@ -155,8 +155,9 @@ SortedCorners sorted_corners(const mesh::Triangle& facet) {
     return {std::min(second, third), std::max(second, third), second > third};
 }
 
-/// Facets of equal corners become one. Buckets by least corner hold two facets on average, so comparing inside
-/// them beats hashing all triples.
+}  // namespace
+
+// Buckets by least corner hold two facets on average, so comparing inside them beats hashing all triples.
 void merge_coincident(Soup& soup) {
     const std::size_t count = soup.facets.size();
     std::vector<std::uint32_t> begin(soup.points.size() + 1, 0);
@@ -216,6 +217,8 @@ void merge_coincident(Soup& soup) {
     }
     if (!dropped.empty()) drop_facets(dropped, soup);
 }
+
+namespace {
 
 /// Operands that are a few units across lose their shape, and vanish below one unit; that is never silent.
 void warn_of_small_operands(std::span<const mesh::Mesh* const> operands, Soup& soup) {

@@ -55,4 +55,7 @@ struct Soup {
 Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands open,
                        const Context& context);
 
+/// Makes facets of equal corners one, which carries the sum of their winding changes; where that is nothing, they vanish.
+void merge_coincident(Soup& soup);
+
 }  // namespace octavo::boolean

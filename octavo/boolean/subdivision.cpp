@@ -38,14 +38,19 @@ void Subdivision::begin(const exact::Plane& plane, const exact::Point (&corners)
 
 void Subdivision::begin_round(const exact::Plane& plane, const Soup& soup,
                               std::span<const std::uint32_t> facets) {
+    round_.clear();
+    for (const std::uint32_t facet : facets)
+        for (const std::uint32_t corner : soup.facets[facet]) round_.push_back(soup.points[corner]);
+    begin_round(plane, round_);
+}
+
+void Subdivision::begin_round(const exact::Plane& plane, std::span<const exact::Point> points) {
     const int axis = plane.dominant_axis(), i = (axis + 1) % 3, j = (axis + 2) % 3;
     std::int32_t low[2] = {exact::universe_side, exact::universe_side}, high[2] = {0, 0};
-    for (const std::uint32_t facet : facets)
-        for (const std::uint32_t corner : soup.facets[facet]) {
-            const exact::Point point = soup.points[corner];
-            low[0] = std::min(low[0], point[i]), high[0] = std::max(high[0], point[i]);
-            low[1] = std::min(low[1], point[j]), high[1] = std::max(high[1], point[j]);
-        }
+    for (const exact::Point point : points) {
+        low[0] = std::min(low[0], point[i]), high[0] = std::max(high[0], point[i]);
+        low[1] = std::min(low[1], point[j]), high[1] = std::max(high[1], point[j]);
+    }
     const std::int32_t reach = (high[0] - low[0]) + (high[1] - low[1]) + 4;  // < 2^27 + 4
     const auto at = [axis](std::int32_t x, std::int32_t y) {
         return axis == 0 ? exact::Point{0, x, y} : axis == 1 ? exact::Point{y, 0, x} : exact::Point{x, y, 0};

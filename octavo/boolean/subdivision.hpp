@@ -58,8 +58,9 @@ class Subdivision {
     /// table.
     void begin(const exact::Plane& plane, const exact::Point (&corners)[3], const PointId (&ids)[3]);
 
-    /// Starts with a triangle that holds the points of the soup's facets strictly inside. Its corners are in no
-    /// table.
+    /// Starts with a triangle that holds these points strictly inside. Its corners are in no table.
+    void begin_round(const exact::Plane& plane, std::span<const exact::Point> points);
+    /// The same, for the corners of facets of the soup.
     void begin_round(const exact::Plane& plane, const Soup& soup, std::span<const std::uint32_t> facets);
 
     /// Where segments lie: the line that this plane has in common with another one. Numbers below that of the cut
@@ -175,6 +176,7 @@ class Subdivision {
     std::vector<exact::TriplePoint> new_points_;
     std::vector<std::uint32_t> vertex_of_;  ///< hash of point id to vertex
     std::vector<std::pair<VertexId, VertexId>> in_the_way_;
+    std::vector<exact::Point> round_;  ///< what a first triangle is to hold
     std::vector<TriangleId> pending_;  ///< triangles whose edge opposite to a new vertex may have to go
     TriangleId hint_ = 0;
     std::uint32_t walk_seed_ = 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <octavo/boolean/arrangement.hpp>
@@ -23,6 +24,8 @@ struct Surface {
     };
     std::vector<mesh::Triangle> triangles;
     std::vector<Facet> facets;
+    /// Soup facets whose pieces are parts of a polygon with pieces of others, and the facet that this is named after.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> merged;
 
     /// The plane of triangle `index`, its front outside the solid.
     exact::Plane plane(const Soup& soup, std::size_t index) const {
@@ -33,8 +36,11 @@ struct Surface {
     }
 };
 
-/// The triangles with a role, in the order of the complex: whole facets first.
+/// The triangles that bound the result, in the order of the complex: whole facets first.
 Surface select(const Complex& complex, const Patches& patches, const Classification& classification);
+
+/// The triangles that dangle, as their facets turn.
+Surface select_dangling(const Complex& complex, const Patches& patches, const Classification& classification);
 
 /// Per point: whether it is where triangles were cut, or met other surfaces. All other points keep their fan of
 /// input facets.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <octavo/boolean/assemble.hpp>
 #include <octavo/boolean/point_table.hpp>
+#include <octavo/boolean/rounding_faults.hpp>
 #include <octavo/boolean/surface.hpp>
 #include <octavo/bsp_octree/borders.hpp>
 #include <octavo/bsp_octree/faces.hpp>
@@ -78,10 +79,11 @@ Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context) {
     context.report("facets", 0.7);
     const Surface surface = fill_borders(borders, octree.store().planes, points);
     context.report("mesh", 0.9);
+    const boolean::RoundedPoints rounded(soup, points);
     boolean::Assembled assembled =
-        boolean::assemble(surface, soup, points, std::vector<char>(points.size(), 1), context);
-    result.report.largest_rounding = assembled.largest_rounding;
-    result.report.inverted_facets = assembled.inverted_facets;
+        boolean::assemble(surface, soup, points, rounded, std::vector<char>(points.size(), 1));
+    result.report.largest_rounding = rounded.largest_rounding();
+    result.report.inverted_facets = boolean::find_inverted(surface, soup, rounded).size();
     result.report.duplicated_vertices = assembled.duplicated_vertices;
     result.mesh = std::move(assembled.mesh);
     result.mesh.sources.clear();

@@ -71,20 +71,21 @@ RandomProgram random_program(Random& random, std::uint32_t operands) {
 }
 
 /// The volume where an expression holds, from the volumes of all intersections.
-double expected_volume(const std::vector<Convex>& bodies, const std::function<bool(std::uint32_t)>& holds) {
+tests::Rational expected_volume(const std::vector<Convex>& bodies,
+                                const std::function<bool(std::uint32_t)>& holds) {
     const std::uint32_t all = 1u << bodies.size();
-    std::vector<double> atom(all,
-                             0);  // first of the intersection of the bodies in the set, then of exactly those
+    std::vector<tests::Rational> atom(
+        all, 0);  // first of the intersection of the bodies in the set, then of exactly those
     for (std::uint32_t set = 1; set < all; ++set) {
         std::vector<tests::HalfSpace> sides;
         for (std::size_t k = 0; k < bodies.size(); ++k)
             if (set >> k & 1) sides.insert(sides.end(), bodies[k].sides.begin(), bodies[k].sides.end());
-        atom[set] = tests::volume_of(sides);
+        atom[set] = tests::exact_volume(sides);
     }
     for (std::size_t k = 0; k < bodies.size(); ++k)
         for (std::uint32_t set = 1; set < all; ++set)
             if (!(set >> k & 1)) atom[set] -= atom[set | 1u << k];
-    double volume = 0;
+    tests::Rational volume = 0;
     for (std::uint32_t set = 1; set < all; ++set)
         if (holds(set)) volume += atom[set];
     return volume;
@@ -94,6 +95,14 @@ void expect_solid(const Result<Evaluated>& result, double volume, const std::str
     ASSERT_TRUE(result) << what << ": " << result.error().describe();
     EXPECT_EQ(tests::manifold_defect(result->mesh), "") << what;
     EXPECT_NEAR(tests::volume_of(result->mesh), volume, 1e-9) << what;
+}
+
+void expect_exact_volume(const Result<Evaluated>& result, const tests::Rational& volume,
+                         const std::string& what) {
+    ASSERT_TRUE(result) << what << ": " << result.error().describe();
+    EXPECT_EQ(tests::manifold_defect(result->mesh), "") << what;
+    EXPECT_EQ(tests::exact_volume(result->mesh), volume) << what;
+    EXPECT_EQ(result->report.inverted_facets + result->report.crossing_facets, 0U) << what;
 }
 
 std::vector<const mesh::Mesh*> meshes_of(const std::vector<Convex>& bodies) {
@@ -117,12 +126,13 @@ TEST_P(RandomConvexBodies, GiveTheVolumeThatRationalClippingGives) {
             bodies.push_back(repeat ? bodies[0] : tests::random_convex(random, side));
         }
         const RandomProgram expression = random_program(random, static_cast<std::uint32_t>(count));
-        const double volume = expected_volume(bodies, expression.holds);
+        const tests::Rational volume = expected_volume(bodies, expression.holds);
         const std::string what =
             "run " + std::to_string(run) + " of " + std::to_string(count) + " bodies, " + expression.text;
         for (const Simplify simplify : {Simplify::none, Simplify::coplanar})
-            expect_solid(evaluate(meshes_of(bodies), expression.program, {.simplify = simplify}, context),
-                         volume, what + (simplify == Simplify::none ? "" : ", simplified"));
+            expect_exact_volume(
+                evaluate(meshes_of(bodies), expression.program, {.simplify = simplify}, context), volume,
+                what + (simplify == Simplify::none ? "" : ", simplified"));
     }
 }
 
@@ -158,16 +168,19 @@ class Voxels {
     std::array<char, count> cells_{};
 };
 
-TEST(Evaluate, CountsTheCellsOfOperandsThatAreManyOverlappingBoxes) {
-    for (int run = 0; run < 1000 * tests::effort() && !HasFailure(); ++run) {
+/// Operands of a few boxes each, and an expression over them.
+struct BoxScene {
+    std::vector<Voxels> voxels;
+    std::vector<mesh::Mesh> meshes;
+    RandomProgram expression;
+
+    explicit BoxScene(int run) {
         std::mt19937 random(static_cast<unsigned>(run));
         const auto number = [&](int low, int high) {
             return std::uniform_int_distribution<int>(low, high)(random);
         };
-        const auto operands = static_cast<std::uint32_t>(number(1, 5));
-        std::vector<Voxels> voxels(operands);
-        std::vector<mesh::Mesh> meshes;
-        for (std::uint32_t k = 0; k < operands; ++k) {
+        voxels.resize(static_cast<std::size_t>(number(1, 5)));
+        for (Voxels& cells : voxels) {
             std::vector<Convex> boxes;
             for (int i = number(1, 4); i > 0; --i) {
                 tests::Grid low, high;
@@ -176,24 +189,101 @@ TEST(Evaluate, CountsTheCellsOfOperandsThatAreManyOverlappingBoxes) {
                     high[axis] = number(low[axis] + 1, Voxels::side);
                 }
                 boxes.push_back(tests::box(low, high, number(0, 1) == 1));
-                voxels[k].add(low, high);
+                cells.add(low, high);
             }
             meshes.push_back(joined(boxes));
         }
-        const RandomProgram expression = random_program(random, operands);
-        std::size_t volume = 0;
-        for (std::size_t cell = 0; cell < Voxels::count; ++cell) {
-            std::uint32_t bits = 0;
-            for (std::uint32_t k = 0; k < operands; ++k)
-                bits |= static_cast<std::uint32_t>(voxels[k].at(cell)) << k;
-            volume += expression.holds(bits);
-        }
+        expression = random_program(random, static_cast<std::uint32_t>(voxels.size()));
+    }
+    /// A bit per operand that holds in the cell; none outside of the grid.
+    std::uint32_t bits(tests::Grid cell) const {
+        std::uint32_t bits = 0;
+        for (const int part : cell)
+            if (part < 0 || part >= Voxels::side) return 0;
+        const auto index =
+            static_cast<std::size_t>((cell[0] * Voxels::side + cell[1]) * Voxels::side + cell[2]);
+        for (std::size_t k = 0; k < voxels.size(); ++k)
+            bits |= static_cast<std::uint32_t>(voxels[k].at(index)) << k;
+        return bits;
+    }
+    Result<Evaluated> evaluate(const Options& options) const {
         std::vector<const mesh::Mesh*> pointers;
         for (const mesh::Mesh& mesh : meshes) pointers.push_back(&mesh);
-        for (const Simplify simplify : {Simplify::none, Simplify::coplanar})
-            expect_solid(evaluate(pointers, expression.program, {.simplify = simplify}),
-                         static_cast<double>(volume), "run " + std::to_string(run) + ", " + expression.text);
+        return boolean::evaluate(pointers, expression.program, options);
     }
+};
+
+template <class Visit>
+void for_each_cell(int low, const Visit& visit) {
+    for (int x = low; x < Voxels::side; ++x)
+        for (int y = low; y < Voxels::side; ++y)
+            for (int z = low; z < Voxels::side; ++z) visit(tests::Grid{x, y, z});
+}
+
+TEST(Evaluate, CountsTheCellsOfOperandsThatAreManyOverlappingBoxes) {
+    for (int run = 0; run < 1000 * tests::effort() && !HasFailure(); ++run) {
+        const BoxScene scene(run);
+        std::size_t volume = 0;
+        for_each_cell(0, [&](tests::Grid cell) { volume += scene.expression.holds(scene.bits(cell)); });
+        for (const Simplify simplify : {Simplify::none, Simplify::coplanar})
+            expect_exact_volume(scene.evaluate({.simplify = simplify}), volume,
+                                "run " + std::to_string(run) + ", " + scene.expression.text);
+    }
+}
+
+double area_of(const mesh::Mesh& mesh, std::size_t first) {
+    double area = 0;
+    for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
+        const mesh::Triangle& t = mesh.triangles[i];
+        area += length(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+                             mesh.vertices[t[2]] - mesh.vertices[t[0]])) /
+                2;
+    }
+    return area;
+}
+
+/// The solid without its dangling facets, and these.
+std::pair<mesh::Mesh, double> split(const Evaluated& evaluated) {
+    mesh::Mesh solid = evaluated.mesh;
+    const std::size_t facets = solid.triangles.size() - evaluated.report.dangling_facets;
+    const double area = area_of(solid, facets);
+    solid.triangles.resize(facets);
+    std::uint32_t vertices = 0;
+    for (const mesh::Triangle& t : solid.triangles)
+        vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+    solid.vertices.resize(vertices);
+    return {solid, area};
+}
+
+TEST(Evaluate, KeepsTheFacesOnWhichAnExpressionHoldsAndBesideWhichItDoesNot) {
+    std::size_t dangling = 0;
+    for (int run = 0; run < 500 * tests::effort() && !HasFailure(); ++run) {
+        const BoxScene scene(run);
+        const auto holds = [&](std::uint32_t bits) { return scene.expression.holds(bits); };
+        std::size_t area = 0, volume = 0;
+        for_each_cell(-1, [&](tests::Grid cell) {
+            volume += holds(scene.bits(cell));
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                tests::Grid next = cell;
+                ++next[axis];
+                const std::uint32_t here = scene.bits(cell), there = scene.bits(next);
+                area += holds(here | there) && !holds(here) && !holds(there);
+            }
+        });
+        for (const Simplify simplify : {Simplify::none, Simplify::coplanar}) {
+            const Result<Evaluated> result =
+                scene.evaluate({.simplify = simplify, .dangling = Dangling::kept});
+            const std::string what = "run " + std::to_string(run) + ", " + scene.expression.text;
+            ASSERT_TRUE(result) << what;
+            const auto [solid, dangling_area] = split(*result);
+            EXPECT_EQ(tests::manifold_defect(solid), "") << what;
+            EXPECT_EQ(tests::exact_volume(solid), volume) << what;
+            EXPECT_DOUBLE_EQ(dangling_area, static_cast<double>(area)) << what;
+            EXPECT_EQ(result->report.closed, area == 0) << what;
+        }
+        dangling += area > 0;
+    }
+    EXPECT_GT(dangling, 10u) << "too few of the scenes have dangling faces";
 }
 
 mesh::Mesh cube(double x, double y, double z, double side = 1) {
@@ -252,6 +342,22 @@ TEST(Evaluate, MergesCoplanarLeftoversOfTwoCubesInARow) {
     expect_solid(result, 1.5, "two cubes in a row");
     EXPECT_EQ(result->mesh.triangles.size(), 12u);
     EXPECT_EQ(unite(row, {.simplify = Simplify::none})->mesh.triangles.size(), 44u);
+}
+
+TEST(Evaluate, GivesTheFaceThatTouchingCubesShareAsASheet) {
+    const std::vector<mesh::Mesh> pair{cube(0, 0, 0), cube(1, 0.5, 0.25)};
+    EXPECT_TRUE(intersect(pair)->mesh.triangles.empty());
+    const Result<Evaluated> face = intersect(pair, {.dangling = Dangling::kept});
+    ASSERT_TRUE(face);
+    EXPECT_EQ(face->mesh.triangles.size(), 2u);
+    EXPECT_EQ(face->mesh.vertices.size(), 4u);
+    EXPECT_EQ(face->report.dangling_facets, 2u);
+    EXPECT_DOUBLE_EQ(area_of(face->mesh, 0), 0.5 * 0.75);
+    for (const mesh::Source& source : face->mesh.sources) EXPECT_EQ(source.operand, 0u);
+    // It faces as the first operand does.
+    const mesh::Triangle& t = face->mesh.triangles[0];
+    const auto& v = face->mesh.vertices;
+    EXPECT_GT(cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]).x, 0);
 }
 
 TEST(Evaluate, DoublesTheEdgeOrVertexInWhichSolidsTouch) {

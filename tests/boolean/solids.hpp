@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <boost/multiprecision/cpp_int.hpp>
+
 #include <octavo/mesh/mesh.hpp>
 
 // Small solids on an integer grid, made to touch and coincide, and what the results of set operations on them
@@ -129,19 +131,58 @@ Convex random_convex(Random& random, int side) {
     }
 }
 
-/// The volume of the intersection of half-spaces that is bounded. Its corners are found exactly (all triples of
-/// planes, 64-bit homogeneous coordinates); only the final sum is in doubles.
-inline double volume_of(std::vector<HalfSpace> sides) {
+/// An exact number. Volumes here are fractions of small denominators.
+using Rational = boost::multiprecision::cpp_rational;
+
+/// x / w, y / w, z / w, w > 0, without a common divisor.
+using Corner = std::array<std::int64_t, 4>;
+
+inline Corner reduced(Corner x) {
+    const std::int64_t divisor = std::gcd(std::gcd(x[0], x[1]), std::gcd(x[2], x[3])) * (x[3] < 0 ? -1 : 1);
+    for (std::int64_t& part : x) part /= divisor;
+    return x;
+}
+
+/// Sums of determinants of corners, collected by denominator so that few fractions are added.
+class VolumeSum {
+  public:
+    /// The volume of the tetrahedron of the origin and a triangle.
+    void add(const Corner& a, const Corner& b, const Corner& c) {
+        using Wide = __int128;
+        const Wide determinant = Wide{a[0]} * (Wide{b[1]} * c[2] - Wide{b[2]} * c[1]) +
+                                 Wide{a[1]} * (Wide{b[2]} * c[0] - Wide{b[0]} * c[2]) +
+                                 Wide{a[2]} * (Wide{b[0]} * c[1] - Wide{b[1]} * c[0]);
+        numerator_[Wide{a[3]} * b[3] * c[3]] += determinant;
+    }
+    Rational volume() const {
+        using boost::multiprecision::cpp_int;
+        cpp_int numerator = 0, denominator = 6;
+        for (const auto& [part_denominator, part] : numerator_) {
+            numerator *= part_denominator;
+            numerator += part * denominator / 6;
+            denominator *= part_denominator;
+            const cpp_int divisor = gcd(numerator, denominator / 6);
+            numerator /= divisor, denominator /= divisor;
+        }
+        return Rational(numerator, denominator);
+    }
+
+  private:
+    std::map<__int128, __int128> numerator_;
+};
+
+/// The volume of the intersection of half-spaces that is bounded, exactly: its corners come from all triples of planes,
+/// and only the order of corners round a face is found in doubles.
+inline Rational exact_volume(std::vector<HalfSpace> sides) {
     std::sort(sides.begin(), sides.end());
     sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
-    using Corner = std::array<std::int64_t, 4>;
     std::set<Corner> corners;
     for (std::size_t i = 0; i < sides.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
             const Grid line = cross(sides[i].n, sides[j].n);
             if (line == Grid{}) continue;
             for (std::size_t k = 0; k < j; ++k) {
-                std::int64_t w = dot(line, sides[k].n);
+                const std::int64_t w = dot(line, sides[k].n);
                 if (w == 0) continue;
                 const Grid jk = cross(sides[j].n, sides[k].n), ki = cross(sides[k].n, sides[i].n);
                 Corner x;
@@ -149,10 +190,7 @@ inline double volume_of(std::vector<HalfSpace> sides) {
                     x[axis] = std::int64_t{sides[i].d} * jk[axis] + std::int64_t{sides[j].d} * ki[axis] +
                               std::int64_t{sides[k].d} * line[axis];
                 x[3] = w;
-                if (w < 0)
-                    for (std::int64_t& part : x) part = -part;
-                const std::int64_t divisor = std::gcd(std::gcd(x[0], x[1]), std::gcd(x[2], x[3]));
-                for (std::int64_t& part : x) part /= divisor;
+                x = reduced(x);
                 bool inside = true;
                 for (const HalfSpace& side : sides)
                     inside =
@@ -160,32 +198,67 @@ inline double volume_of(std::vector<HalfSpace> sides) {
                 if (inside) corners.insert(x);
             }
         }
-    double volume = 0;
+    VolumeSum sum;
     for (const HalfSpace& side : sides) {
-        std::vector<Vec3> face;
+        struct Placed {
+            double angle;
+            Corner corner;
+        };
+        std::vector<Placed> face;
+        const auto at = [](const Corner& x) {
+            const double w = static_cast<double>(x[3]);
+            return Vec3{static_cast<double>(x[0]) / w, static_cast<double>(x[1]) / w,
+                        static_cast<double>(x[2]) / w};
+        };
         for (const Corner& x : corners)
-            if (side.n[0] * x[0] + side.n[1] * x[1] + side.n[2] * x[2] == side.d * x[3]) {
-                const double w = static_cast<double>(x[3]);
-                face.push_back({static_cast<double>(x[0]) / w, static_cast<double>(x[1]) / w,
-                                static_cast<double>(x[2]) / w});
-            }
+            if (side.n[0] * x[0] + side.n[1] * x[1] + side.n[2] * x[2] == side.d * x[3])
+                face.push_back({0, x});
         if (face.size() < 3) continue;
         Vec3 middle;
-        for (const Vec3& p : face) middle = middle + (1.0 / static_cast<double>(face.size())) * p;
+        for (const Placed& each : face)
+            middle = middle + (1.0 / static_cast<double>(face.size())) * at(each.corner);
         const Vec3 normal{static_cast<double>(side.n[0]), static_cast<double>(side.n[1]),
                           static_cast<double>(side.n[2])};
-        const Vec3 first = face[0] - middle, second = octavo::cross(normal, first);
-        std::sort(face.begin(), face.end(), [&](const Vec3& a, const Vec3& b) {
-            const auto angle = [&](const Vec3& p) {
-                return std::atan2(octavo::dot(p - middle, second) / length(normal),
-                                  octavo::dot(p - middle, first));
-            };
-            return angle(a) < angle(b);
-        });
-        for (std::size_t i = 0; i < face.size(); ++i)
-            volume += octavo::dot(middle, octavo::cross(face[i], face[(i + 1) % face.size()])) / 6;
+        const Vec3 first = at(face[0].corner) - middle, second = octavo::cross(normal, first);
+        for (Placed& each : face)
+            each.angle = std::atan2(octavo::dot(at(each.corner) - middle, second) / length(normal),
+                                    octavo::dot(at(each.corner) - middle, first));
+        std::sort(face.begin(), face.end(),
+                  [](const Placed& a, const Placed& b) { return a.angle < b.angle; });
+        for (std::size_t i = 1; i + 1 < face.size(); ++i)
+            sum.add(face[0].corner, face[i].corner, face[i + 1].corner);
     }
-    return volume;
+    return sum.volume();
+}
+
+/// The fraction nearest to `number` among those of small denominators; what solids on a small grid have as coordinates
+/// differs by far more than doubles round.
+inline std::array<std::int64_t, 2> fraction_of(double number) {
+    std::int64_t p[2] = {1, 0}, q[2] = {0, 1};  // the last convergents, newest first
+    double rest = number;
+    for (;;) {
+        const double whole = std::floor(rest + 1e-9);
+        const auto term = static_cast<std::int64_t>(whole);
+        const std::int64_t next_p = term * p[0] + p[1], next_q = term * q[0] + q[1];
+        p[1] = p[0], q[1] = q[0], p[0] = next_p, q[0] = next_q;
+        if (std::fabs(static_cast<double>(p[0]) / static_cast<double>(q[0]) - number) < 1e-13 ||
+            q[0] > 10000000)
+            return {p[0], q[0]};
+        rest = 1 / (rest - whole);
+    }
+}
+
+/// The volume of a result on a small grid, with its vertices taken to the fractions that they were rounded from.
+inline Rational exact_volume(const mesh::Mesh& mesh) {
+    std::vector<Corner> corners;
+    for (const Vec3& v : mesh.vertices) {
+        const auto x = fraction_of(v.x), y = fraction_of(v.y), z = fraction_of(v.z);
+        const std::int64_t w = std::lcm(std::lcm(x[1], y[1]), z[1]);
+        corners.push_back({x[0] * (w / x[1]), y[0] * (w / y[1]), z[0] * (w / z[1]), w});
+    }
+    VolumeSum sum;
+    for (const mesh::Triangle& t : mesh.triangles) sum.add(corners[t[0]], corners[t[1]], corners[t[2]]);
+    return sum.volume();
 }
 
 inline double volume_of(const mesh::Mesh& mesh) {

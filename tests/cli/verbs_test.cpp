@@ -145,6 +145,35 @@ TEST_F(Verbs, EvalTakesExpressionsOfNamesAndCsgFiles) {
     EXPECT_EQ(octavo("eval bad.csg -o out.ply --json").json()["error"]["code"], "bad_input");
 }
 
+TEST_F(Verbs, SetOperationsMakeFlushWhatIsNearerThanTheTolerance) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o a.stl").exit_code, 0);
+    ASSERT_EQ(octavo("shape cube --size 2 -o b.off").exit_code, 0);
+    const auto area = [&](const std::string& tolerance) {
+        const Ran ran = octavo(
+            "union a.stl b.off --transform b.off:1,0,0,2.001,0,1,0,0,0,0,1,0 -o out.ply --json" + tolerance);
+        EXPECT_EQ(ran.exit_code, 0) << ran.err;
+        EXPECT_EQ(octavo("check out.ply").exit_code, 0);
+        return ran.json()["result"]["area"].get<double>();
+    };
+    EXPECT_NEAR(area(""), 48, 1e-6);
+    EXPECT_NEAR(area(" --tolerance 0.01"), 40, 0.1);
+    EXPECT_NEAR(area(" --tolerance 0"), 48, 1e-6);
+    EXPECT_EQ(octavo("union a.stl b.off --tolerance -1 -o out.ply").exit_code, 2);
+    EXPECT_EQ(octavo("union a.stl b.off --tolerance 100 -o out.ply").exit_code, 3);
+}
+
+TEST_F(Verbs, SetOperationsKeepDanglingFacesWhenAsked) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o a.stl").exit_code, 0);
+    ASSERT_EQ(octavo("shape cube --size 2 -o b.off").exit_code, 0);
+    const std::string touching =
+        "intersection a.stl b.off --transform b.off:1,0,0,2,0,1,0,0,0,0,1,0 -o out.ply --json --regularized ";
+    EXPECT_EQ(octavo(touching + "yes").json()["result"]["triangles"], 0);
+    const json face = octavo(touching + "no").json()["result"];
+    EXPECT_EQ(face["dangling_facets"], 2);
+    EXPECT_EQ(face["area"], 4);
+    EXPECT_EQ(face["closed"], false);
+}
+
 TEST_F(Verbs, SetOperationsCloseOpenOperandsWhenAsked) {
     write("open.off", open_cube);
     const Ran ran = octavo("union open.off --open winding -o out.ply --json");

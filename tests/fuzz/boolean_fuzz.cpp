@@ -100,5 +100,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(near(volume(boolean::subtract, pair), a - both));
     require(near(volume(boolean::symmetric_difference, pair), either - both));
     require(near(volume(boolean::unite, swapped), either) && near(volume(boolean::intersect, swapped), both));
+    // A tolerance moves surfaces, but opens nothing.
+    options.tolerance = {0.001 * (1 + bytes.next(50)), boolean::Tolerance::Of::size};
+    volume(boolean::unite, pair), volume(boolean::subtract, pair);
     return 0;
 }

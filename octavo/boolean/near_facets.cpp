@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <octavo/boolean/near_facets.hpp>
+
+namespace octavo::boolean {
+namespace {
+
+using Pair = NearFacets::Pair;
+
+Vec3 lattice_place(const RoundedPoints& rounded, PointId id) {
+    const RoundedPoints::Point at = rounded[id];
+    constexpr double scale = 1.0 / static_cast<double>(std::int64_t{1} << RoundedPoints::fraction_bits);
+    return {static_cast<double>(at[0]) * scale, static_cast<double>(at[1]) * scale,
+            static_cast<double>(at[2]) * scale};
+}
+
+/// How far the segment from `from` to `to` stays away from `point`.
+double distance(Vec3 point, Vec3 from, Vec3 to) {
+    const Vec3 edge = to - from, offset = point - from;
+    const double square = dot(edge, edge);
+    const double along = square > 0 ? std::clamp(dot(offset, edge) / square, 0.0, 1.0) : 0.0;
+    return length(offset - along * edge);
+}
+
+/// Collects pairs of facets.
+class PairSearch {
+  public:
+    PairSearch(const Surface& surface, const Soup& soup, const RoundedPoints& rounded)
+        : surface_(surface), soup_(soup), rounded_(rounded), merged_(surface.merged) {
+        const double units = 4 * rounding_bound(soup.lattice) * exact::universe_side;
+        tight_distance_ = units / contact_reach(soup.lattice) + 1;
+        std::sort(merged_.begin(), merged_.end());
+        chain();
+    }
+
+    std::vector<Pair> run(std::span<const Pair> near) {
+        if (!any_moved_) return {};
+        for (const auto& [first, second] : near) add(first, second);
+        for (std::uint32_t facet = 0; facet < moved_.size(); ++facet)
+            if (moved_[facet] && next_[first_of_[facet]] != no_index) pairs_.push_back({facet, facet});
+        // A facet may have pieces in polygons of different names.
+        for (const auto& [facet, name] : merged_) add(facet, facet);
+        gather();
+        for (std::size_t i = 0; i + 1 < begin_.size(); ++i)
+            about_corner({incident_.data() + begin_[i], begin_[i + 1] - begin_[i]});
+        std::sort(pairs_.begin(), pairs_.end());
+        pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+        return std::move(pairs_);
+    }
+
+    std::span<const std::uint32_t> first_of() const { return first_of_; }
+    std::span<const std::uint32_t> next() const { return next_; }
+
+  private:
+    /// A facet of the soup at a corner; its triangles may go by the names of several facets.
+    struct Incident {
+        std::uint32_t facet;
+        std::uint32_t corner : 2;
+        std::uint32_t moved : 1;
+    };
+
+    /// The triangles of each facet, linked.
+    void chain() {
+        first_of_.assign(soup_.facets.size(), no_index);
+        next_.assign(surface_.triangles.size(), no_index);
+        moved_.assign(soup_.facets.size(), 0);
+        for (std::uint32_t i = static_cast<std::uint32_t>(surface_.triangles.size()); i-- > 0;) {
+            const std::uint32_t facet = surface_.facets[i].soup_facet;
+            next_[i] = first_of_[facet];
+            first_of_[facet] = i;
+            if (!surface_.facets[i].is_piece) continue;
+            for (const PointId corner : surface_.triangles[i])
+                if (rounded_.is_moved(corner)) moved_[facet] = 1, any_moved_ = true;
+        }
+    }
+
+    /// Calls `visit(facet)` for the names under which the triangles of a facet are found.
+    template <class Visit>
+    void for_each_name(std::uint32_t facet, const Visit& visit) const {
+        if (first_of_[facet] != no_index) visit(facet);
+        for (auto at = std::lower_bound(merged_.begin(), merged_.end(), Pair{facet, 0});
+             at != merged_.end() && at->first == facet; ++at)
+            if (at->second != facet) visit(at->second);
+    }
+
+    void add(std::uint32_t first, std::uint32_t second) {
+        for_each_name(first, [&](std::uint32_t a) {
+            for_each_name(second, [&](std::uint32_t b) {
+                if (a != b && (moved_[a] || moved_[b])) pairs_.push_back(std::minmax(a, b));
+            });
+        });
+    }
+
+    /// The facets about each corner of a facet with moved points.
+    void gather() {
+        std::vector<std::uint32_t> number(soup_.points.size(), no_index);
+        std::vector<char> has_moved(soup_.facets.size(), 0), exists(soup_.facets.size(), 0);
+        for (std::uint32_t facet = 0; facet < soup_.facets.size(); ++facet)
+            if (first_of_[facet] != no_index) exists[facet] = 1, has_moved[facet] = moved_[facet];
+        for (const auto& [facet, name] : merged_) {
+            exists[facet] = 1;
+            has_moved[facet] = static_cast<char>(has_moved[facet] | moved_[name]);
+        }
+        std::uint32_t corners = 0;
+        for (std::uint32_t facet = 0; facet < soup_.facets.size(); ++facet)
+            if (has_moved[facet])
+                for (const std::uint32_t corner : soup_.facets[facet])
+                    if (number[corner] == no_index) number[corner] = corners++;
+        struct Found {
+            std::uint32_t corner;
+            Incident incident;
+        };
+        std::vector<Found> found;
+        begin_.assign(corners + 1, 0);
+        for (std::uint32_t facet = 0; facet < soup_.facets.size(); ++facet) {
+            if (!exists[facet]) continue;
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t corner = number[soup_.facets[facet][k]];
+                if (corner == no_index) continue;
+                found.push_back({corner, {facet, k, has_moved[facet] != 0}});
+                ++begin_[corner + 1];
+            }
+        }
+        for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+        incident_.resize(found.size());
+        std::vector<std::uint32_t> place(begin_.begin(), begin_.end() - 1);
+        for (const Found& each : found) incident_[place[each.corner]++] = each.incident;
+    }
+
+    void about_corner(std::span<const Incident> facets) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>>
+            ends;  // of edges from here, with the facet's position
+        for (std::uint32_t i = 0; i < facets.size(); ++i)
+            for (std::uint32_t k = 1; k < 3; ++k)
+                ends.push_back({soup_.facets[facets[i].facet][(facets[i].corner + k) % 3], i});
+        std::sort(ends.begin(), ends.end());
+        const auto add_two = [&](std::uint32_t i, std::uint32_t k) {
+            if (facets[i].moved || facets[k].moved) add(facets[i].facet, facets[k].facet);
+        };
+        for (std::size_t i = 0; i < ends.size(); ++i)
+            for (std::size_t k = i + 1; k < ends.size() && ends[k].first == ends[i].first; ++k)
+                add_two(ends[i].second, ends[k].second);
+        for (std::uint32_t i = 0; i < facets.size(); ++i)
+            if (is_tight(facets[i]))
+                for (std::uint32_t k = 0; k < facets.size(); ++k)
+                    if (k != i) add_two(i, k);
+    }
+
+    /// Whether an edge of the facet's triangles that does not end in the corner comes near it. Large polygons are
+    /// said to be, unseen.
+    bool is_tight(const Incident& incident) const {
+        constexpr int most = 64;
+        const PointId corner = soup_.facets[incident.facet][incident.corner];
+        const Vec3 at = lattice_place(rounded_, corner);
+        int seen = 0;
+        bool tight = false;
+        for_each_name(incident.facet, [&](std::uint32_t name) {
+            for (std::uint32_t i = first_of_[name]; i != no_index && !tight; i = next_[i]) {
+                const mesh::Triangle& t = surface_.triangles[i];
+                for (std::size_t k = 0; k < 3 && !tight; ++k) {
+                    const PointId from = t[k], to = t[(k + 1) % 3];
+                    if (from == corner || to == corner) continue;
+                    tight = distance(at, lattice_place(rounded_, from), lattice_place(rounded_, to)) <
+                            tight_distance_;
+                }
+                tight = tight || ++seen > most;
+            }
+        });
+        return tight;
+    }
+
+    const Surface& surface_;
+    const Soup& soup_;
+    const RoundedPoints& rounded_;
+    std::vector<Pair> merged_;
+    double tight_distance_ = 0;
+    bool any_moved_ = false;
+    std::vector<std::uint32_t> first_of_, next_;  ///< triangle of a facet, and the next one after a triangle
+    std::vector<char> moved_;                     ///< per facet: its triangles have moved corners
+    std::vector<std::uint32_t> begin_;            ///< into `incident_`, per corner
+    std::vector<Incident> incident_;
+    std::vector<Pair> pairs_;
+};
+
+/// Groups of more triangles than this get a tree.
+constexpr std::uint32_t large_group = 64;
+
+}  // namespace
+
+NearFacets::NearFacets(const Surface& surface, const Soup& soup, std::span<const Pair> near,
+                       const RoundedPoints& rounded, const Context& context) {
+    PairSearch search(surface, soup, rounded);
+    pairs_ = search.run(near);
+    fill_groups(surface, rounded, search.first_of(), search.next(), context);
+}
+
+void NearFacets::fill_groups(const Surface& surface, const RoundedPoints& rounded,
+                             std::span<const std::uint32_t> first_of, std::span<const std::uint32_t> next,
+                             const Context& context) {
+    std::vector<std::uint32_t> facets;
+    for (const auto& [first, second] : pairs_) facets.insert(facets.end(), {first, second});
+    std::sort(facets.begin(), facets.end());
+    facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+    const auto below = [&](PointId id) {
+        const RoundedPoints::Point at = rounded[id];
+        const auto cell = [&](std::size_t axis) {
+            return static_cast<std::int32_t>(at[axis] >> RoundedPoints::fraction_bits);
+        };
+        return exact::Point{cell(0), cell(1), cell(2)};
+    };
+    Soup corners;  // of the triangles in large groups
+    for (const std::uint32_t facet : facets) {
+        const auto begin = static_cast<std::uint32_t>(triangles_.size());
+        for (std::uint32_t i = first_of[facet]; i != no_index; i = next[i]) {
+            const mesh::Triangle& t = surface.triangles[i];
+            const exact::Point a = below(t[0]), b = below(t[1]), c = below(t[2]);
+            triangles_.push_back(i);
+            boxes_.push_back(
+                {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+                 {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}});
+        }
+        groups_.push_back({facet, begin, static_cast<std::uint32_t>(triangles_.size()), no_index});
+    }
+    const bool any_large = std::any_of(groups_.begin(), groups_.end(),
+                                       [](const Group& group) { return group.size() > large_group; });
+    if (!any_large) return;
+    for (const std::uint32_t triangle : triangles_) {
+        const auto first = static_cast<std::uint32_t>(corners.points.size());
+        for (const PointId corner : surface.triangles[triangle]) corners.points.push_back(below(corner));
+        corners.facets.push_back({first, first + 1, first + 2});
+    }
+    for (Group& group : groups_) {
+        if (group.size() <= large_group) continue;
+        std::vector<std::uint32_t> positions(group.size());
+        for (std::uint32_t i = 0; i < positions.size(); ++i) positions[i] = group.begin + i;
+        group.tree = static_cast<std::uint32_t>(trees_.size());
+        trees_.emplace_back(corners, std::move(positions), 0, context);
+    }
+}
+
+}  // namespace octavo::boolean

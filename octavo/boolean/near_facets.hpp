@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <octavo/boolean/box_tree.hpp>
+#include <octavo/boolean/contacts.hpp>
+#include <octavo/boolean/rounded_points.hpp>
+#include <octavo/boolean/surface.hpp>
+
+// The pairs of triangles of the result that rounding may bring into contact, from what is known of the soup's facets.
+//
+// Problem: rounding moves points by 2^-28 of a lattice unit or so, which can make triangles cross that were apart by as
+// little. To look for such pairs among all triangles of the result would cost more than the set operation: pieces of
+// slivers lie beside each other by the thousand. Idea: triangles lie in facets of the soup, and facets that are farther
+// apart than `contact_reach` did not pass the filter that looked for contacts. Let δ be what rounding moves a
+// coordinate by, and s the reach. A pair of facets is listed here when
+//   - it passed that filter: else a plane has both on its two sides, corners that they share in it, all others farther
+//     from it than s;
+//   - or it shares an edge;
+//   - or it shares just a corner, about which one of the two is *tight*: an edge of its triangles that does not end in
+//     the corner comes within R = 4 δ 2^26 / s of it;
+//   - or it is a facet with itself.
+// No other pair can do harm. While points move from their exact to their rounded places, the first contact of two
+// triangles is one of parts without a common corner (a corner and a triangle, or two edges), which were no more than 2δ
+// apart in any coordinate before. Facets without a common corner are farther apart than that. Facets with one are as
+// near to each other only where the distance from the separating plane, more than s at the far corners and linear
+// between, is less: within R of the corner, and there neither has a part that does not end in it.
+//
+// Polygons merged from pieces of several facets are near what one of these is near.
+// Cost: about 1 µs a facet with moved corners and 5 ns any other.
+
+namespace octavo::boolean {
+
+/// How near to each other facets must be that find_contacts is to tell of, in lattice units. More makes the filter let
+/// more pairs through, less makes more facets tight.
+inline double contact_reach(const exact::Lattice& lattice) {
+    return std::max(0x1p-6, 4 * rounding_bound(lattice));
+}
+
+class NearFacets {
+  public:
+    /// Facets of the soup, by which the triangles in their planes are meant.
+    using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+    NearFacets(const Surface& surface, const Soup& soup, std::span<const Pair> near,
+               const RoundedPoints& rounded, const Context& context);
+
+    /// Sorted; one of either has a triangle with a moved corner.
+    const std::vector<Pair>& pairs() const { return pairs_; }
+    bool empty() const { return pairs_.empty(); }
+
+    /// Calls `visit(first, second)` for the triangles of a pair whose rounded boxes meet; once for two of one facet.
+    template <class Visit>
+    void for_each(const Pair& pair, const Visit& visit) const {
+        const Group &first = group_of(pair.first), &second = group_of(pair.second);
+        if (pair.first == pair.second)
+            each_within(first, visit);
+        else if (first.size() > second.size())
+            each_between(first, second, [&](std::uint32_t a, std::uint32_t b) { visit(a, b); });
+        else
+            each_between(second, first, [&](std::uint32_t b, std::uint32_t a) { visit(a, b); });
+    }
+
+  private:
+    /// Rounded down to lattice points.
+    struct Box {
+        exact::Point low, high;
+    };
+    /// The triangles of a facet that is in a pair.
+    struct Group {
+        std::uint32_t facet, begin, end, tree;
+        std::uint32_t size() const { return end - begin; }
+    };
+
+    static bool meet(const Box& a, const Box& b) {
+        return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+               a.low.z <= b.high.z && b.low.z <= a.high.z;
+    }
+    const Group& group_of(std::uint32_t facet) const {
+        return *std::lower_bound(groups_.begin(), groups_.end(), facet,
+                                 [](const Group& group, std::uint32_t of) { return group.facet < of; });
+    }
+    template <class Visit>
+    void each_within(const Group& group, const Visit& visit) const {
+        for (std::uint32_t i = group.begin; i < group.end; ++i) {
+            if (group.tree != no_index) {
+                trees_[group.tree].for_each_meeting(boxes_[i].low, boxes_[i].high, [&](std::uint32_t k) {
+                    if (k > i) visit(triangles_[i], triangles_[k]);
+                });
+                continue;
+            }
+            for (std::uint32_t k = i + 1; k < group.end; ++k)
+                if (meet(boxes_[i], boxes_[k])) visit(triangles_[i], triangles_[k]);
+        }
+    }
+    /// The first is the larger one.
+    template <class Visit>
+    void each_between(const Group& first, const Group& second, const Visit& visit) const {
+        for (std::uint32_t k = second.begin; k < second.end; ++k) {
+            if (first.tree != no_index) {
+                trees_[first.tree].for_each_meeting(boxes_[k].low, boxes_[k].high, [&](std::uint32_t i) {
+                    visit(triangles_[i], triangles_[k]);
+                });
+                continue;
+            }
+            for (std::uint32_t i = first.begin; i < first.end; ++i)
+                if (meet(boxes_[i], boxes_[k])) visit(triangles_[i], triangles_[k]);
+        }
+    }
+
+    void fill_groups(const Surface& surface, const RoundedPoints& rounded,
+                     std::span<const std::uint32_t> first_of, std::span<const std::uint32_t> next,
+                     const Context& context);
+
+    std::vector<Pair> pairs_;
+    std::vector<Group> groups_;             ///< sorted by facet
+    std::vector<std::uint32_t> triangles_;  ///< of the groups
+    std::vector<Box> boxes_;                ///< of these
+    std::vector<BoxTree> trees_;            ///< of large groups; their facets are positions in `triangles_`
+};
+
+}  // namespace octavo::boolean

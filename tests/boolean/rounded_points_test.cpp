@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <random>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <gtest/gtest.h>
+
+#include <octavo/boolean/rounded_points.hpp>
+#include <octavo/exact/intersect.hpp>
+
+namespace octavo::boolean {
+namespace {
+
+using boost::multiprecision::cpp_int;
+using boost::multiprecision::cpp_rational;
+using exact::Point;
+
+template <int Limbs>
+cpp_int number(const exact::WideInt<Limbs>& wide) {
+    const bool negative = wide.negative();
+    const exact::WideInt<Limbs> magnitude = exact::negate_if(negative, wide);
+    cpp_int result = 0;
+    for (int i = Limbs; i-- > 0;) result = (result << 64) + magnitude.limb[static_cast<std::size_t>(i)];
+    return negative ? cpp_int(-result) : result;
+}
+
+/// A coordinate in lattice units from the world's origin.
+template <class P>
+cpp_rational place(const P& point, int axis, std::int64_t origin) {
+    return cpp_rational(number(point.numerator(axis)), number(point.weight())) + origin;
+}
+
+/// The distance of the two doubles about a number, but no less than the finest that points are rounded to.
+cpp_rational spacing(const cpp_rational& at) {
+    const double near = std::fabs(static_cast<double>(at));
+    return cpp_rational(std::max(std::nextafter(near, 2 * near + 1) - near, 0x1p-36));
+}
+
+Point random_point(std::mt19937& random, std::int32_t side) {
+    std::uniform_int_distribution<std::int32_t> at(0, side);
+    return {at(random), at(random), at(random)};
+}
+
+TEST(RoundedPoints, AreTheNearestDoubles) {
+    std::mt19937 random(7);
+    std::size_t moved = 0;
+    for (const std::int64_t origin :
+         {std::int64_t{0}, -(std::int64_t{1} << 25), -(std::int64_t{1} << 26), std::int64_t{1} << 33,
+          -(std::int64_t{1} << 40), std::int64_t{1} << 52}) {
+        Soup soup;
+        soup.lattice = *exact::Lattice::from_parts(-4, {origin, origin, origin});
+        for (int run = 0; run < 3000; ++run) {
+            const std::int32_t side = run % 2 ? 7 : exact::universe_side - 1;
+            Point p[9];
+            for (Point& point : p) {
+                point = random_point(random, side);
+                // About the world's origin, where doubles are finest.
+                if (run % 2 && origin < 0 && origin >= -exact::universe_side / 2)
+                    for (std::int32_t* const x : {&point.x, &point.y, &point.z})
+                        *x += static_cast<std::int32_t>(-origin) - 3;
+            }
+            const exact::Plane planes[3] = {exact::Plane::through(p[0], p[1], p[2]),
+                                            exact::Plane::through(p[3], p[4], p[5]),
+                                            exact::Plane::through(p[6], p[7], p[8])};
+            const auto check = [&](const auto& point) {
+                for (int axis = 0; axis < 3; ++axis)
+                    if (point.approximation(axis) < 0 || point.approximation(axis) > exact::universe_side - 1)
+                        return;
+                PointTable points(soup);
+                const PointId id = points.add(point);
+                const RoundedPoints rounded(soup, points);
+                const Vec3 world = rounded.world(id);
+                bool any_moved = false;
+                for (int axis = 0; axis < 3; ++axis) {
+                    const cpp_rational exact_place = place(point, axis, origin);
+                    const cpp_rational found = cpp_rational(world[axis]) * 16;
+                    const cpp_rational off = abs(cpp_rational(found - exact_place));
+                    EXPECT_LE(off, spacing(exact_place) * cpp_rational(1001, 2000)) << "origin " << origin;
+                    EXPECT_LE(off, cpp_rational(rounded.largest_rounding()) * 16);
+                    EXPECT_EQ(found, cpp_rational(rounded[id][static_cast<std::size_t>(axis)]) /
+                                             (std::int64_t{1} << RoundedPoints::fraction_bits) +
+                                         origin);
+                    any_moved = any_moved || off != 0;
+                }
+                EXPECT_EQ(rounded.is_moved(id), any_moved);
+                moved += any_moved;
+            };
+            const auto first = planes[0].value_at(p[3]), second = planes[0].value_at(p[4]);
+            if ((first < 0 && second > 0) || (first > 0 && second < 0))
+                check(exact::intersect_edge(p[3], p[4], first, second));
+            if (const auto point = exact::intersect(planes[0], planes[1], planes[2])) check(*point);
+        }
+    }
+    EXPECT_GT(moved, 1000U);
+}
+
+TEST(RoundedPoints, HaveExactPredicates) {
+    std::mt19937_64 random(3);
+    for (int run = 0; run < 20000; ++run) {
+        RoundedPoints::Point p[4];
+        const int bits = run % 3 == 0 ? 2 : 62;
+        for (auto& point : p)
+            for (auto& x : point) x = static_cast<std::int64_t>(random() >> (64 - bits));
+        // Often nearly in one plane.
+        if (run % 3 == 1)
+            for (std::size_t k = 0; k < 3; ++k)
+                p[3][k] = p[0][k] / 2 + p[1][k] / 2 + static_cast<int>(random() % 2);
+        cpp_int u[3], v[3], w[3];
+        for (std::size_t k = 0; k < 3; ++k)
+            u[k] = cpp_int(p[1][k]) - p[0][k], v[k] = cpp_int(p[2][k]) - p[0][k],
+            w[k] = cpp_int(p[3][k]) - p[0][k];
+        const cpp_int normal[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                   u[0] * v[1] - u[1] * v[0]};
+        const cpp_int volume = normal[0] * w[0] + normal[1] * w[1] + normal[2] * w[2];
+        EXPECT_EQ(static_cast<int>(orient3d(p[0], p[1], p[2], p[3])), volume.sign());
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_EQ(static_cast<int>(orient2d(axis, p[0], p[1], p[2])), normal[axis].sign());
+    }
+}
+
+}  // namespace
+}  // namespace octavo::boolean
