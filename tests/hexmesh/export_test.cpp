@@ -17,9 +17,11 @@
 #include <unistd.h>
 
 #include <octavo/hexmesh/build.hpp>
+#include <octavo/hexmesh/conforming.hpp>
 #include <octavo/hexmesh/fit.hpp>
 #include <octavo/hexmesh/to_polyhedra.hpp>
 #include <octavo/io/abaqus.hpp>
+#include <octavo/io/gmsh.hpp>
 #include <octavo/io/leaf_list.hpp>
 #include <octavo/io/openfoam.hpp>
 #include <octavo/io/p8est.hpp>
@@ -250,6 +252,19 @@ TEST(WriteAbaqus, GivesNoTwoMaterialsOneName) {
             EXPECT_EQ(std::count(sets.begin(), sets.end(), surface.substr(11)), 1) << surface;
         }
     }
+}
+
+TEST(WriteGmsh, GivesNoTwoGroupsOneName) {
+    const std::vector<mesh::Mesh> solids{mesh::box({0, 0, 0}, {2, 1, 1}), mesh::box({1, 0, 0}, {3, 1, 1}),
+                                         mesh::box({4, 0, 0}, {5, 1, 1})};
+    const Result<Built> built = build_conforming(solids, {.precision = 0.5});
+    ASSERT_TRUE(built);
+    const Folder folder;
+    const std::string names[] = {"a\"", "a_", "a_+a__2"};
+    ASSERT_TRUE(io::write_gmsh((folder / "m.msh").string(), built->mesh, names));
+    const std::vector<std::string> volumes = names_after("\n3 ", text_of(folder / "m.msh"));
+    EXPECT_EQ(volumes,
+              (std::vector<std::string>{"1 \"a_\"", "2 \"a_+a__2_2\"", "3 \"a__2\"", "4 \"a_+a__2\""}));
 }
 
 TEST(WriteOpenFoam, GivesNoTwoZonesOrPatchesOneName) {
