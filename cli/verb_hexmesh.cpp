@@ -98,6 +98,12 @@ Result<hexmesh::Options> meshing_options(const HexmeshOptions& options) {
             ErrorCode::bad_input,
             "--fit and --keep " + keep + " need the parts that are filled, and --no-fractions forbids them",
             {}};
+    if (options.fit && options.balance == "face")
+        return Error{
+            ErrorCode::bad_input,
+            "--fit wants --balance edge or corner: balanced at faces alone, nodes hang on nodes that "
+            "hang themselves",
+            {}};
     meshing.max_cells = *parse_count(options.max_cells);
     meshing.fractions = options.no_fractions ? hexmesh::Fractions::skip : hexmesh::Fractions::compute;
     meshing.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;

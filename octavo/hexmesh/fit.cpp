@@ -232,6 +232,11 @@ Distances distances_of(const std::vector<query::Closest>& answers, double small)
 
 Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, const FitOptions& options,
                       const Context& context) {
+    if (!mesh.constraints_are_direct)
+        return Error{ErrorCode::bad_input,
+                     "a mesh balanced at faces alone cannot be fitted: some nodes hang on nodes that hang "
+                     "themselves; balance it at edges or corners",
+                     {}};
     const Result<SeparatingSurfaces> surfaces = SeparatingSurfaces::build(solids, mesh, context);
     if (!surfaces) return surfaces.error();
     Box3 bounds;

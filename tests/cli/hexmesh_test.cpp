@@ -163,15 +163,26 @@ TEST_F(Hexmesh, GoesFromOpenscadToAPictureOfStresses) {
 
 TEST_F(Hexmesh, RefusesBadUsageAndBadDataWithThePlace) {
     ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
-    for (const char* arguments :
-         {"hexmesh", "hexmesh cube.off --level 22", "hexmesh cube.off -p 0",
-          "hexmesh cube.off --size cube.off", "hexmesh cube.off --box 1,2,3:4",
-          "hexmesh cube.off --level 3 -p 1", "hexmesh cube.off --curvature 1:999",
-          "hexmesh cube.off --conforming --balance face", "hexmesh cube.off -o cube.xyz",
-          "hexmesh cube.off --size other.off:1 -o c.inp", "hexmesh cube.off -o - --to abaqus --json",
-          "hexmesh - - -o c.inp", "hexmesh cube.off --level two", "hexmesh cube.off --layers 1.5",
-          "hexmesh cube.off --balance sides", "hexmesh cube.off --keep some", "hexmesh cube.off -o -",
-          "hexmesh cube.off --to stl -o c.inp", "hexmesh cube.off --proximity nan"})
+    for (const char* arguments : {"hexmesh",
+                                  "hexmesh cube.off --level 22",
+                                  "hexmesh cube.off -p 0",
+                                  "hexmesh cube.off --size cube.off",
+                                  "hexmesh cube.off --box 1,2,3:4",
+                                  "hexmesh cube.off --level 3 -p 1",
+                                  "hexmesh cube.off --curvature 1:999",
+                                  "hexmesh cube.off --conforming --balance face",
+                                  "hexmesh none.off --fit --balance face",
+                                  "hexmesh cube.off -o cube.xyz",
+                                  "hexmesh cube.off --size other.off:1 -o c.inp",
+                                  "hexmesh cube.off -o - --to abaqus --json",
+                                  "hexmesh - - -o c.inp",
+                                  "hexmesh cube.off --level two",
+                                  "hexmesh cube.off --layers 1.5",
+                                  "hexmesh cube.off --balance sides",
+                                  "hexmesh cube.off --keep some",
+                                  "hexmesh cube.off -o -",
+                                  "hexmesh cube.off --to stl -o c.inp",
+                                  "hexmesh cube.off --proximity nan"})
         EXPECT_EQ(octavo(arguments).exit_code, 2) << arguments;
     for (const char* arguments :
          {"hexmesh none.off -o c.inp", "hexmesh cube.off -o c.msh --level 3 --box 0,0,0,0.1,0.1,0.1:0.05",

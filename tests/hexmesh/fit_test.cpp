@@ -181,6 +181,18 @@ TEST(Fit, DrawsToTheFacesThatCloseHolesToo) {
     expect_cube(bounds_of(built->mesh, 0), 4.4);
 }
 
+TEST(Fit, RefusesMeshesInWhichMastersHang) {
+    const mesh::Mesh solid = mesh::icosphere(1, 8);
+    Result<Built> built = build(std::span(&solid, 1),
+                                {.precision = 0.1, .balance = octree::Contact::face, .keep = Keep::manifold});
+    ASSERT_TRUE(built);
+    const std::vector<mesh::HexMesh> before{built->mesh};
+    const Result<FitReport> report = fit(built->mesh, std::span(&solid, 1));
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::bad_input);
+    EXPECT_EQ(built->mesh.positions, before[0].positions);
+}
+
 TEST(Fit, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
     const mesh::Mesh solid = mesh::displaced_sphere(10);
     Result<Built> a = build(std::span(&solid, 1), {.level = 4, .layers = 1, .keep = Keep::manifold});
