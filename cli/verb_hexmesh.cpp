@@ -269,12 +269,12 @@ void add_hexmesh(Program& program) {
         take_one_of(verb->add_option("--balance", options->balance,
                                      "Cells that differ by one level at most: at a face, edge or corner"),
                     {"face", "edge", "corner"});
-    Option* keep = take_one_of(
-        verb->add_option(
-            "--keep", options->keep,
-            "Cells that belong to the mesh: touched by a solid, at least half filled, these with a "
-            "boundary that is a manifold (with --fit), or all"),
-        {"touched", "half", "manifold", "all"});
+    Option* keep = take_one_of(verb->add_option("--keep", options->keep,
+                                                "Cells that belong to the mesh: touched by a solid, at least "
+                                                "half filled by solids (overlaps count once), "
+                                                "these with a "
+                                                "boundary that is a manifold (with --fit), or all"),
+                               {"touched", "half", "manifold", "all"});
     Option* conforming = verb->add_flag("--conforming", options->conforming,
                                         "No hanging nodes: all hexahedra fit, by templates");
     verb->add_flag("--fit", options->fit, "Draw the boundary onto the surface; every cell stays valid");

@@ -9,6 +9,7 @@
 
 #include <octavo/hexmesh/find_leaf.hpp>
 #include <octavo/hexmesh/half_filled.hpp>
+#include <octavo/mesh/filled_parts.hpp>
 
 namespace octavo::hexmesh {
 namespace {
@@ -195,15 +196,9 @@ bool assign_sets(ClassifiedCells& cells, const std::vector<std::uint8_t>& kept) 
 }  // namespace
 
 Result<HalfFilled> decide_by_half(ClassifiedCells& cells, Keep keep) {
-    std::vector<double> filled(cells.keys.size());
+    const std::vector<double> filled = mesh::filled_parts(cells.sets, cells.set_of_cell, cells.fractions);
     std::vector<std::uint8_t> kept(cells.keys.size());
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < filled.size(); ++i) {
-        const mesh::SolidSet& set = cells.sets[cells.set_of_cell[i]];
-        filled[i] = set.inside.empty() ? 0 : 1;
-        for (std::size_t k = 0; k < set.boundary.size(); ++k) filled[i] += cells.fractions[next++];
-        kept[i] = filled[i] >= 0.5;
-    }
+    for (std::size_t i = 0; i < filled.size(); ++i) kept[i] = filled[i] >= 0.5;
     HalfFilled changes;
     if (keep == Keep::manifold) {
         const std::vector<std::uint8_t> before = kept;

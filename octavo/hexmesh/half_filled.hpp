@@ -7,7 +7,8 @@
 #include <octavo/hexmesh/classify.hpp>
 #include <octavo/hexmesh/options.hpp>
 
-// Which cells on a boundary belong to the mesh when each is to be inside or outside: those at least half filled.
+// Which cells on a boundary belong to the mesh when each is to be inside or outside: those at least half filled, by all solids
+// together (mesh/filled_parts.hpp).
 //
 // Taken one by one such cells may touch in a single edge or corner, or face each other across a corner, and no layer
 // of cells can be laid on a boundary like that. So Keep::manifold looks at every corner of the boundary: of the

@@ -6,6 +6,7 @@
 #include <octavo/io/hex_mesh_vtu.hpp>
 #include <octavo/io/output.hpp>
 #include <octavo/io/vtk_appended.hpp>
+#include <octavo/mesh/filled_parts.hpp>
 
 namespace octavo::io {
 namespace {
@@ -38,19 +39,6 @@ std::int32_t first_solid(const mesh::SolidSet& set) {
     return first;
 }
 
-/// The part of each cell in its solids; where several share a cell, at most 1.
-std::vector<float> filled_parts(const mesh::HexMesh& mesh) {
-    std::vector<float> parts;
-    std::size_t next = 0;
-    for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell) {
-        const mesh::SolidSet& set = mesh.set_of(cell);
-        double part = set.inside.empty() ? 0 : 1;
-        for (std::size_t i = 0; i < set.boundary.size(); ++i) part += mesh.fractions[next++];
-        parts.push_back(static_cast<float>(std::min(part, 1.0)));
-    }
-    return parts;
-}
-
 std::string cell_data(Arrays& arrays, const mesh::HexMesh& mesh, std::span<const CellData> more) {
     std::string xml;
     const auto per_cell = [&](const auto& value_of) {
@@ -63,9 +51,9 @@ std::string cell_data(Arrays& arrays, const mesh::HexMesh& mesh, std::span<const
     arrays.add<std::int32_t>(xml, "Int32", "solid", "",
                              per_cell([&](mesh::CellIndex cell) { return first_solid(mesh.set_of(cell)); }));
     if (!mesh.fractions.empty()) {
-        const std::vector<float> parts = filled_parts(mesh);
+        const std::vector<double> parts = mesh::filled_parts(mesh.sets, mesh.set_of_cell, mesh.fractions);
         arrays.add<float>(xml, "Float32", "fraction", "",
-                          per_cell([&](mesh::CellIndex cell) { return parts[cell]; }));
+                          per_cell([&](mesh::CellIndex cell) { return static_cast<float>(parts[cell]); }));
     }
     if (mesh.is_octree())
         arrays.add<std::uint8_t>(xml, "UInt8", "level", "", per_cell([&](mesh::CellIndex cell) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -305,6 +306,11 @@ TEST(Build, RefusesWhatIsNoSolidAndNamesFacets) {
         build(std::span(&doubled, 1), {.level = 4, .overlaps = OverlapPolicy::winding});
     ASSERT_TRUE(accepted);
     EXPECT_TRUE(accepted->report.overlaps);
+    // Cells inside count once, the exact volume counts twice what is covered twice.
+    const SolidReport& solid = accepted->report.solids[0];
+    const double one = 4 * std::numbers::pi / 3, lens = std::numbers::pi * (4 + 0.9) * 1.1 * 1.1 / 12;
+    EXPECT_LT(solid.filled_volume, solid.exact_volume);
+    EXPECT_GT(solid.filled_volume, 0.8 * (2 * one - lens));
 }
 
 TEST(Build, SeesOverlapsWhoseWallsLieOnTheGrid) {
@@ -359,6 +365,28 @@ TEST(Build, RefusesAMeshWithoutCells) {
     }
     EXPECT_FALSE(build_conforming(std::span(&sheet, 1), {.level = 4}));
     EXPECT_TRUE(build(std::span(&sheet, 1), {.level = 4}));
+}
+
+TEST(Build, KeepsWhatOneSolidKeepsWhenItIsGivenTwice) {
+    const Mesh sphere = mesh::icosphere(1, 12);
+    const std::vector<Mesh> twice{sphere, sphere};
+    for (const Keep keep : {Keep::half, Keep::manifold}) {
+        const Options options{.precision = 0.13, .layers = 1, .keep = keep};
+        const Result<Built> once = build(std::span(&sphere, 1), options), both = build(twice, options);
+        ASSERT_TRUE(once && both);
+        EXPECT_EQ(once->mesh.cells, both->mesh.cells);
+    }
+}
+
+TEST(Build, KeepsCellsThatTouchingSolidsFillTogether) {
+    // Three boxes meet in the line x = 0.45, y = 0.6, and none of them fills half of a cell there.
+    const std::vector<Mesh> parts{mesh::box({-2, -2, 0}, {0.45, 0.6, 2}),
+                                  mesh::box({0.45, -2, 0}, {2, 0.6, 2}), mesh::box({-2, 0.6, 0}, {2, 2, 2})};
+    const Mesh whole = mesh::box({-2, -2, 0}, {2, 2, 2});
+    const Options options{.precision = 1, .largest = 1, .keep = Keep::half};
+    const Result<Built> together = build(parts, options), one = build(std::span(&whole, 1), options);
+    ASSERT_TRUE(together && one);
+    EXPECT_EQ(together->mesh.cells, one->mesh.cells);
 }
 
 TEST(Build, RefusesOptionsThatMakeNoSense) {
