@@ -164,9 +164,9 @@ void warn_about(Session& session, const hexmesh::Built& built, std::span<const s
         session.warn(fmt::format("--box number {} misses the model and changes nothing", box + 1));
     if (report.overlaps)
         session.warn(
-            "a solid overlaps itself; inside is where its surface winds at least once, and volumes count "
-            "overlaps "
-            "as often as they are covered");
+            "a solid overlaps itself; inside is where its surface winds at least once, and its exact volume "
+            "counts "
+            "overlaps as often as they are covered, but cells inside count once");
 }
 
 }  // namespace octavo::cli

@@ -23,7 +23,8 @@
 
 namespace octavo::hexmesh {
 
-/// How one solid fills the mesh, in world units. A closed solid's `filled_volume` equals `exact_volume` but for rounding.
+/// How one solid fills the mesh, in world units. The `filled_volume` of a solid that does not overlap itself equals
+/// `exact_volume` but for rounding.
 struct SolidReport {
     std::uint64_t inside_cells = 0, boundary_cells = 0;
     double inside_volume = 0;    ///< of the cells inside

@@ -59,7 +59,8 @@ enum class Fractions : std::uint8_t { compute, skip };
 /// Places where a solid overlaps itself: the winding number is greater than 1, or negative (inside out).
 enum class OverlapPolicy : std::uint8_t {
     reject,  ///< name facets and stop: a union of the solid with nothing resolves it
-    /// Inside means winding number > 0; fractions and volumes count what is covered twice twice.
+    /// Inside means winding number > 0. Exact volumes and the fractions of boundary cells count what is covered twice
+    /// twice; cells inside count once, so that a filled volume differs from the exact one.
     winding,
 };
 
