@@ -77,6 +77,7 @@ Json json_of(const hexmesh::Built& built, std::span<const std::string> names) {
             {"tree_cells", report.tree_cells},
             {"cells_added", report.half_filled.added},
             {"cells_left_out", report.half_filled.left_out},
+            {"cells_cut_off", report.cut_off_cells},
             {"overlaps", report.overlaps},
             {"levels", levels},
             {"solids", solids}};
@@ -162,6 +163,11 @@ void warn_about(Session& session, const hexmesh::Built& built, std::span<const s
     }
     for (const std::size_t box : report.missed_boxes)
         session.warn(fmt::format("--box number {} misses the model and changes nothing", box + 1));
+    if (report.cut_off_cells > 0)
+        session.warn(
+            fmt::format("smaller cells cover a part of a side of {} larger ones, however often these are "
+                        "split; no layer of cells can be laid on the boundary",
+                        grouped(report.cut_off_cells)));
     if (report.overlaps)
         session.warn(
             "a solid overlaps itself; inside is where its surface winds at least once, and its exact volume "

@@ -276,7 +276,6 @@ bool is_by_half(Keep keep) { return keep == Keep::half || keep == Keep::manifold
 /// Keep::manifold larger cells are split until smaller ones cover none of their sides in part.
 Result<ClassifiedCells> decided_cells(const Prepared& prepared, ClassifiedCells cells, const Options& options,
                                       Report& report, const Context& context) {
-    constexpr int most_rounds = 16;  // a few are usual
     for (int round = 0;; ++round) {
         report.tree_cells = cells.keys.size();
         report.solids = prepared.reports;
@@ -285,9 +284,10 @@ Result<ClassifiedCells> decided_cells(const Prepared& prepared, ClassifiedCells 
         const Result<HalfFilled> decided = decide_by_half(cells, options.keep);
         if (!decided) return decided.error();
         report.half_filled = *decided;
-        if (options.keep != Keep::manifold || round == most_rounds) return cells;
+        if (options.keep != Keep::manifold) return cells;
         const std::vector<CellKey> covered = cut_off_in_the_middle(cells);
-        if (covered.empty()) return cells;
+        report.cut_off_cells = covered.size();
+        if (covered.empty() || round >= options.splitting_rounds) return cells;
         const std::vector<CellKey> keys = octree::balance(split(cells.keys, covered), options.balance);
         if (keys.size() > options.max_cells) return too_many_cells(options.max_cells);
         Result<ClassifiedCells> finer = classify(prepared.facets, keys, options, context);

@@ -45,7 +45,10 @@ struct Report {
     double smallest_cell = 0, largest_cell = 0;                         ///< sides, in world units
     std::vector<SolidReport> solids;
     HalfFilled half_filled;  ///< cells that Keep::manifold added and left out
-    bool overlaps = false;   ///< a solid overlaps itself; only under OverlapPolicy::winding
+    /// Cells that Keep::manifold would have split in the next of Options::splitting_rounds; they make a layer of cells
+    /// impossible (buffer_layer.hpp).
+    std::uint64_t cut_off_cells = 0;
+    bool overlaps = false;  ///< a solid overlaps itself; only under OverlapPolicy::winding
     std::vector<std::size_t>
         missed_boxes;  ///< of Options::boxes, those that no solid reaches; not under Keep::all
 };

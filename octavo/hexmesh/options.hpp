@@ -77,6 +77,9 @@ struct Options {
     int layers = 0;
     octree::Contact balance = octree::Contact::edge;
     Keep keep = Keep::touched;
+    /// Rounds of splitting larger cells under Keep::manifold; a few are usual, and Report::cut_off_cells says when they
+    /// were not enough.
+    int splitting_rounds = 16;
     Fractions fractions = Fractions::compute;
     classic::OpenPolicy open = classic::OpenPolicy::reject;
     OverlapPolicy overlaps = OverlapPolicy::reject;

@@ -389,6 +389,21 @@ TEST(Build, KeepsCellsThatTouchingSolidsFillTogether) {
     EXPECT_EQ(together->mesh.cells, one->mesh.cells);
 }
 
+TEST(Build, SaysWhenRoundsOfSplittingWereNotEnough) {
+    // A pin of small cells stands on a part of a larger cell's side.
+    const std::vector<Mesh> solids{mesh::box({0, 0, 0}, {2, 2, 2}),
+                                   mesh::box({0.25, 0.25, 2}, {0.5, 0.5, 3})};
+    Options options{.precision = 0.5, .solids = {{.solid = 1, .surface = 0.25, .interior = 0.25}}};
+    options.keep = Keep::manifold;
+    const Result<Built> enough = build(solids, options);
+    options.splitting_rounds = 0;
+    const Result<Built> few = build(solids, options);
+    ASSERT_TRUE(enough && few);
+    EXPECT_EQ(enough->report.cut_off_cells, 0u);
+    EXPECT_GT(few->report.cut_off_cells, 0u);
+    EXPECT_LT(few->mesh.cells.size(), enough->mesh.cells.size());
+}
+
 TEST(Build, RefusesOptionsThatMakeNoSense) {
     const Mesh solid = mesh::cube();
     const auto code = [&](const Options& options) {
