@@ -21,7 +21,7 @@ namespace {
 constexpr const char* footer =
     "Formats follow from the file's extension; - is stdin or stdout. Data goes to stdout, messages to "
     "stderr.\n"
-    "Meshes: stl, obj, ply, off, 3mf read and written; glb, gltf, dae, fbx, 3ds, ... read through assimp.\n"
+    "Meshes: stl, obj, ply, off, 3mf, poly, smesh read and written; glb, gltf, ... read through assimp.\n"
     "CSG trees of OpenSCAD: csg read. Octrees: oct read and written; vtu, htg written for ParaView.\n"
     "BP-octrees: bpo read and written. BSP-octrees: bso read and written.\n"
     "Points: csv, xyz, npy, ply read. Answers: csv, npy, ply written. Pictures: png, svg, pdf written.\n"

@@ -17,6 +17,8 @@ namespace octavo::io {
 struct FileMesh {
     std::vector<Vec3> vertices;
     FaceList faces;
+    /// The number in the file of each face; empty when face i is the file's i-th.
+    std::vector<std::uint32_t> number_of_face;
     std::vector<std::string> warnings;
     std::string unit;                 ///< name of the unit of length, when the file states one
     double millimetres_per_unit = 0;  ///< 0 when it does not

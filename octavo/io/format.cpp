@@ -4,6 +4,7 @@
 #include <octavo/io/off.hpp>
 #include <octavo/io/ply.hpp>
 #include <octavo/io/stl.hpp>
+#include <octavo/io/tetgen.hpp>
 #include <octavo/io/text_scanner.hpp>
 #include <octavo/io/three_mf.hpp>
 
@@ -25,6 +26,8 @@ constexpr Format formats[] = {
     {"ply", "PLY, text or binary of either byte order", true, read_ply_mesh, write_ply},
     {"off", "Geomview OFF, text or binary", true, without_options<read_off>, write_off},
     {"3mf", "3D Manufacturing Format", false, read_three_mf, write_three_mf},
+    {"poly", "TetGen boundary, facets with holes", true, read_poly, write_poly},
+    {"smesh", "TetGen boundary, facets of one contour", true, read_smesh, write_smesh},
 };
 
 bool looks_like_obj(Bytes bytes) {

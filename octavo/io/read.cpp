@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <limits>
 #include <new>
 
@@ -55,7 +56,7 @@ Result<Found> find_mesh(Bytes bytes, const ReadOptions& options, const Context& 
 }
 
 Error in_file(Error error, const std::string& path) {
-    error.place.file = path;
+    if (error.place.file.empty()) error.place.file = path;
     return error;
 }
 
@@ -66,6 +67,7 @@ Result<Found> find_mesh(const std::string& path, const ReadOptions& options, con
     const std::string extension = path == "-" ? "" : extension_of(path);
     if (chosen.format.empty() && (mesh_format_named(extension) || assimp_reads(extension)))
         chosen.format = extension;
+    if (path != "-") chosen.path = path;
     // These formats spread over several files, which assimp finds from the path.
     const bool by_path = path != "-" && !chosen.format.empty() && !mesh_format_named(chosen.format) &&
                          chosen.format == extension;
@@ -90,15 +92,21 @@ Error too_large() { return {ErrorCode::limit, "has more vertices or facets than 
 Status triangulate(const FileMesh& file, ReadMesh& result, const Context& context) {
     mesh::Triangulator triangulator(context);
     std::size_t crossing = 0;
+    std::vector<std::uint32_t> contour_begin;
     for (std::size_t face = 0; face < file.faces.size(); ++face) {
         if (context.cancelled()) return Context::cancelled_error();
         const std::span<const mesh::VertexIndex> corners = file.faces.corners(face);
         result.triangulated += corners.size() > 3;
-        const mesh::Triangulation split = triangulator(file.vertices, corners);
+        contour_begin.clear();
+        for (std::size_t c = 0; c <= file.faces.contours(face); ++c)
+            contour_begin.push_back(static_cast<std::uint32_t>(file.faces.corners_before(face, c)));
+        const mesh::Triangulation split = triangulator(file.vertices, corners, contour_begin);
         crossing += split.shape == mesh::PolygonShape::crossing;
         result.mesh.triangles.insert(result.mesh.triangles.end(), split.triangles.begin(),
                                      split.triangles.end());
-        result.polygon_of_triangle.resize(result.mesh.triangles.size(), static_cast<std::uint32_t>(face));
+        const auto number =
+            file.number_of_face.empty() ? static_cast<std::uint32_t>(face) : file.number_of_face[face];
+        result.polygon_of_triangle.resize(result.mesh.triangles.size(), number);
     }
     if (crossing > 0)
         result.warnings.push_back(std::to_string(crossing) +
@@ -116,8 +124,9 @@ Result<ReadMesh> to_mesh(Found found, const Context& context) {
     result.left_behind = std::move(found.file.left_behind);
     result.unit = std::move(found.file.unit);
     result.millimetres_per_unit = found.file.millimetres_per_unit;
-    result.polygons = faces.size();
-    if (!faces.has_polygons()) {
+    const std::vector<std::uint32_t>& numbers = found.file.number_of_face;
+    result.polygons = numbers.empty() ? faces.size() : *std::max_element(numbers.begin(), numbers.end()) + 1;
+    if (!faces.has_polygons() && numbers.empty()) {
         result.mesh.triangles = std::move(faces.triangles());
     } else {
         if (faces.size() > most_indices) return too_large();
@@ -141,8 +150,10 @@ Result<ReadPolygons> to_polygons(Found found) {
     for (std::size_t face = 0; face < faces.size(); ++face) {
         const std::span<const mesh::VertexIndex> corners = faces.corners(face);
         if (mesh.corners.size() + corners.size() > most_indices) return too_large();
+        for (std::size_t c = 1; c <= faces.contours(face); ++c)
+            mesh.contour_begin.push_back(
+                static_cast<std::uint32_t>(mesh.corners.size() + faces.corners_before(face, c)));
         mesh.corners.insert(mesh.corners.end(), corners.begin(), corners.end());
-        mesh.contour_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
         mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.contour_begin.size() - 1));
     }
     mesh.vertices = std::move(found.file.vertices);

@@ -10,7 +10,7 @@
 #include <octavo/base/result.hpp>
 #include <octavo/mesh/mesh.hpp>
 
-// Reads meshes: STL, OBJ, PLY, OFF and 3MF by readers of our own, which take every decimal to the nearest
+// Reads meshes: STL, OBJ, PLY, OFF, 3MF and TetGen's .poly and .smesh by readers of our own, which take every decimal to the nearest
 // double and name the line or byte of what is wrong; every other format through assimp, which delivers
 // floats. Vertices and faces come in the order of the file. Nothing is repaired, and nothing is merged except
 // the bit-equal corners of formats that store loose triangles (STL, and those of assimp).
@@ -18,9 +18,12 @@
 namespace octavo::io {
 
 struct ReadOptions {
-    /// Name of the format ("stl", "obj", "ply", "off", "3mf", or an extension that assimp knows); empty takes
-    /// it from the file's extension, and from the content when that says nothing.
+    /// Name of the format ("stl", "obj", "ply", "off", "3mf", "poly", "smesh", or an extension that assimp knows); empty
+    /// takes it from the file's extension, and from the content when that says nothing.
     std::string format;
+    /// Where bytes in memory come from, for formats that keep a part of a mesh in a file beside (.poly and .smesh their
+    /// points). Reading a file sets it.
+    std::string path = "";
     /// A compressed or instanced file may not grow beyond this many triangles, nor beyond as many vertices (a small 3MF
     /// can claim any number); more is ErrorCode::limit. The default needs about 7 GB.
     std::uint64_t max_triangles = 200'000'000;
@@ -42,7 +45,8 @@ struct ReadMesh {
     std::vector<std::string> left_behind;
 };
 
-/// Polygons as the file has them, for formats that carry them (OBJ, PLY, OFF); triangles otherwise.
+/// Polygons as the file has them, for formats that carry them (OBJ, PLY, OFF; POLY and SMESH, which alone have holes);
+/// triangles otherwise.
 struct ReadPolygons {
     mesh::PolygonMesh mesh;
     std::string format;

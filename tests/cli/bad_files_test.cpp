@@ -49,6 +49,8 @@ TEST_F(BadFiles, TextWithAWrongWordNamesTheLine) {
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n",
         "d.ply:13");
+    expect_refused("f.poly", "4 3\n1 0 0 0\n2 6 0 0\n3 0 6 0\n4 0 1 6\n1\n1\n4 1 2 3 4\n", "f.poly:7");
+    expect_refused("g.smesh", "3 3\n1 0 0 0\n2 6 0 0\n3 0 6 0\n1\n3 1 2 4\n", "g.smesh:6");
     expect_refused("e.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 nan\n",
                    "e.stl:5");
 }
@@ -70,7 +72,7 @@ TEST_F(BadFiles, CountsThatTheFileCannotHoldAreRefusedAtOnce) {
 }
 
 TEST_F(BadFiles, EmptyFilesFoldersAndForbiddenOnesAreNamed) {
-    for (const char* name : {"a.stl", "a.obj", "a.ply", "a.off", "a.3mf", "a.glb", "a"})
+    for (const char* name : {"a.stl", "a.obj", "a.ply", "a.off", "a.3mf", "a.poly", "a.smesh", "a.glb", "a"})
         expect_refused(name, "", name);
     std::filesystem::create_directory(path("folder.stl"));
     EXPECT_NE(octavo("info folder.stl").err.find("folder.stl"), std::string::npos);
@@ -108,11 +110,11 @@ TEST_F(BadFiles, FilesThatEndEarlyNeverCrashAnything) {
     ASSERT_EQ(octavo("octree t.stl --depth 3 -o t.oct").exit_code, 0);
     ASSERT_EQ(octavo("convert t.stl t2.stl --encoding ascii").exit_code, 0);
     ASSERT_EQ(octavo("convert t.stl t2.ply --encoding ascii").exit_code, 0);
-    for (const char* name : {"t.obj", "t.ply", "t.off", "t.3mf"})
+    for (const char* name : {"t.obj", "t.ply", "t.off", "t.3mf", "t.poly"})
         ASSERT_EQ(octavo(std::string("convert t.stl ") + name).exit_code, 0);
     write("t.csg", "union() {\n  cube(size = [1, 2, 3]);\n  sphere(r = 2, $fn = 8);\n}\n");
     for (const char* name :
-         {"t.stl", "t2.stl", "t.obj", "t.ply", "t2.ply", "t.off", "t.3mf", "t.oct", "t.csg"}) {
+         {"t.stl", "t2.stl", "t.obj", "t.ply", "t2.ply", "t.off", "t.3mf", "t.poly", "t.oct", "t.csg"}) {
         const std::string whole = read(name);
         const std::string cut = "cut" + std::filesystem::path(name).extension().string();
         int refused = 0;

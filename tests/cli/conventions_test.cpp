@@ -79,7 +79,7 @@ TEST_F(Conventions, WhatIsWrongWithAnOptionIsSaidWithItsNameAndItsLimits) {
         {"shape torus --detail 99999 -o a.stl", {"--detail", "3 to 5000", "99999"}},
         {"shape cube --detail 2 -o a.stl", {"--detail", "cube"}},
         {"octree a.off --open maybe", {"--open", "reject or winding", "not maybe"}},
-        {"convert a.off a.xyz", {"a.xyz", "stl, obj, ply, off or 3mf"}},
+        {"convert a.off a.xyz", {"a.xyz", "stl, obj, ply, off, 3mf, poly or smesh"}},
         {"contains - -", {"stdin"}},
         {"info a.off --jsno", {"--jsno", "did you mean --json?"}},
         {"shape spheer -o a.stl", {"spheer", "did you mean sphere?"}},
@@ -127,7 +127,7 @@ TEST_F(Conventions, HelpTellsDefaultsAndChoicesAndFormats) {
         EXPECT_NE(octree.find(words), std::string::npos) << words << "\n" << octree;
     EXPECT_EQ(octree.find("INT in"), std::string::npos);
     EXPECT_NE(octavo("render --help").out.find("default 1200x900"), std::string::npos);
-    EXPECT_NE(octavo("convert --help").out.find("stl, obj, ply, off or 3mf"), std::string::npos);
+    EXPECT_NE(octavo("convert --help").out.find("stl, obj, ply, off, 3mf, poly or smesh"), std::string::npos);
     for (const char* format : {"stl", "obj", "ply", "off", "3mf", "csg", "oct", "bpo", "bso", "vtu", "htg",
                                "npy", "png", "svg", "pdf"})
         for (const char* text : {"--help", "man"})
