@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 
 #include <octavo/bsp/build.hpp>
 
 namespace octavo::bsp {
 namespace {
 
-constexpr std::int8_t unknown = 2;
-
 /// More signs than this are not kept but asked again: trees of thousands of planes are rare and need no speed, but a
 /// vertex with 10^5 faces must not ask for 10 GB.
 constexpr std::size_t most_signs = std::size_t{1} << 22;
+
+/// Faces have sets of their vertices up to this many words; longer ones are slower than going round the corners, and
+/// many faces in few planes would have many.
+constexpr std::size_t most_face_words = 4;
+
+constexpr std::size_t word_bits = 64;
+constexpr std::size_t words_for(std::size_t vertices) { return (vertices + word_bits - 1) / word_bits; }
+constexpr std::uint64_t bit_of(std::uint32_t vertex) { return std::uint64_t{1} << vertex % word_bits; }
 
 }  // namespace
 
@@ -43,7 +50,7 @@ void TreeBuilder::build(FragmentPool& pool, std::span<const Fragment> fragments,
                 reversed = pieces_[piece].reversed;
                 continue;
             }
-            const Count side = sides(pieces_[piece], plane);
+            const Sides side = sides(piece, plane);
             std::uint32_t front = piece, back = piece;
             if (side.front && side.back) cut(piece, plane, front, back);
             if (side.front) front_.push_back(front);
@@ -89,13 +96,61 @@ void TreeBuilder::gather(FragmentPool& pool, std::span<const Fragment> fragments
             corners_.push_back({number_of(vertices_, corner.vertex), corner.edge});
     }
     keeps_signs_ = vertices_.size() * planes_.size() <= most_signs;
-    signs_.clear();
-    if (!keeps_signs_) return;
-    signs_.resize(vertices_.size() * planes_.size(), unknown);
-    // The corners of a face lie in its plane.
+    piece_sets_.clear();
+    if (keeps_signs_) begin_sets();
+}
+
+/// Nothing is asked yet but that the corners of a face lie in its plane.
+void TreeBuilder::begin_sets() {
+    // Room for the vertices that cuts make, mostly.
+    words_ = words_for(vertices_.size() + vertices_.size() / 4 + 8);
+    sets_.assign(3 * planes_.size() * words_, 0);
+    for (std::uint32_t plane = 0; plane < planes_.size(); ++plane)
+        std::fill_n(unasked_set(plane), words_, ~Word{0});
     for (const Piece& piece : pieces_)
-        for (std::uint32_t i = 0; i < piece.count; ++i)
-            signs_[corners_[piece.begin + i].vertex * planes_.size() + piece.plane] = 0;
+        for (std::uint32_t i = 0; i < piece.count; ++i) {
+            const std::uint32_t vertex = corners_[piece.begin + i].vertex;
+            unasked_set(piece.plane)[vertex / word_bits] &= ~bit_of(vertex);
+        }
+    piece_sets_.clear();
+    if (words_ > most_face_words) return;
+    piece_sets_.resize(pieces_.size() * words_);
+    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) fill_piece_set(piece);
+}
+
+void TreeBuilder::fill_piece_set(std::uint32_t number) {
+    const Piece& piece = pieces_[number];
+    Word* const vertices = vertices_of(number);
+    for (std::uint32_t i = 0; i < piece.count; ++i) {
+        const std::uint32_t vertex = corners_[piece.begin + i].vertex;
+        vertices[vertex / word_bits] |= bit_of(vertex);
+    }
+}
+
+/// Twice as many words a set.
+void TreeBuilder::widen_sets() {
+    const auto widened = [&](const std::vector<Word>& sets) {
+        std::vector<Word> wide(2 * sets.size());
+        for (std::size_t from = 0, to = 0; from < sets.size(); from += words_, to += 2 * words_)
+            std::copy_n(sets.begin() + static_cast<std::ptrdiff_t>(from), words_,
+                        wide.begin() + static_cast<std::ptrdiff_t>(to));
+        return wide;
+    };
+    sets_ = widened(sets_);
+    if (2 * words_ <= most_face_words)
+        piece_sets_ = widened(piece_sets_);
+    else
+        piece_sets_.clear();
+    words_ *= 2;
+    for (std::uint32_t plane = 0; plane < planes_.size(); ++plane)
+        std::fill_n(unasked_set(plane) + words_ / 2, words_ / 2, ~Word{0});
+}
+
+void TreeBuilder::add_piece(const Piece& piece) {
+    pieces_.push_back(piece);
+    if (!has_piece_sets()) return;
+    piece_sets_.resize(pieces_.size() * words_);
+    fill_piece_set(static_cast<std::uint32_t>(pieces_.size() - 1));
 }
 
 std::uint32_t TreeBuilder::choose(std::uint32_t begin, std::uint32_t end) {
@@ -109,43 +164,75 @@ std::uint32_t TreeBuilder::choose(std::uint32_t begin, std::uint32_t end) {
     std::uint32_t best = 0, least = ~std::uint32_t{0};
     for (std::uint32_t i = 0; i < candidates; ++i) {
         const std::uint32_t plane = pieces_[list_[begin + i * count / candidates]].plane;
-        const std::uint32_t cost = score(plane, begin, end);
+        const std::uint32_t cost = score(plane, begin, end, least);
         if (cost < least) least = cost, best = plane;
     }
     return best;
 }
 
-std::uint32_t TreeBuilder::score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end) {
+/// The cost of a plane; anything not less than `enough` when it is no less.
+std::uint32_t TreeBuilder::score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end,
+                                 std::uint32_t enough) {
+    // A cut makes one more face, and so at least one more node; a tree that leans costs depth only.
+    constexpr std::uint32_t cost_of_cut = 4;
     std::uint32_t front = 0, back = 0, both = 0;
     for (std::uint32_t i = begin; i < end; ++i) {
-        const Piece& piece = pieces_[list_[i]];
-        if (piece.plane == plane) continue;
-        const Count side = sides(piece, plane);
+        if (pieces_[list_[i]].plane == plane) continue;
+        const Sides side = sides(list_[i], plane);
         both += side.front && side.back;
         front += side.front && !side.back;
         back += side.back && !side.front;
+        if (cost_of_cut * both >= enough) return enough;
     }
-    // A cut makes one more face, and so at least one more node; a tree that leans costs depth only.
-    return 4 * both + (front > back ? front - back : back - front);
+    return cost_of_cut * both + (front > back ? front - back : back - front);
 }
 
-TreeBuilder::Count TreeBuilder::sides(const Piece& piece, std::uint32_t plane) {
-    Count count;
-    for (std::uint32_t i = 0; i < piece.count; ++i) {
-        const int side = sign(corners_[piece.begin + i].vertex, plane);
-        count.front += side > 0;
-        count.back += side < 0;
+TreeBuilder::Sides TreeBuilder::sides(std::uint32_t number, std::uint32_t plane) {
+    Sides result;
+    const Piece& piece = pieces_[number];
+    if (!has_piece_sets()) {
+        for (std::uint32_t i = 0; i < piece.count; ++i) {
+            const int side = sign(corners_[piece.begin + i].vertex, plane);
+            result.front = result.front || side > 0;
+            result.back = result.back || side < 0;
+        }
+        return result;
     }
-    return count;
+    const Word* const vertices = vertices_of(number);
+    Word *const front = front_set(plane), *const back = back_set(plane), *const unasked = unasked_set(plane);
+    Word any_front = 0, any_back = 0;
+    for (std::size_t w = 0; w < words_; ++w) {
+        for (Word open = vertices[w] & unasked[w]; open; open &= open - 1) {
+            const Word bit = open & (~open + 1);
+            const auto vertex = static_cast<std::uint32_t>(word_bits * w) +
+                                static_cast<std::uint32_t>(std::countr_zero(open));
+            const int side = ask(vertex, plane);
+            front[w] |= side > 0 ? bit : 0;
+            back[w] |= side < 0 ? bit : 0;
+            unasked[w] ^= bit;
+        }
+        any_front |= vertices[w] & front[w];
+        any_back |= vertices[w] & back[w];
+    }
+    return {any_front != 0, any_back != 0};
+}
+
+int TreeBuilder::ask(std::uint32_t vertex, std::uint32_t plane) const {
+    return static_cast<int>(pool_->side_of(pool_->planes()[planes_[plane]], vertices_[vertex]));
 }
 
 int TreeBuilder::sign(std::uint32_t vertex, std::uint32_t plane) {
-    if (!keeps_signs_)
-        return static_cast<int>(pool_->side_of(pool_->planes()[planes_[plane]], vertices_[vertex]));
-    std::int8_t& kept = signs_[vertex * planes_.size() + plane];
-    if (kept == unknown)
-        kept = static_cast<std::int8_t>(pool_->side_of(pool_->planes()[planes_[plane]], vertices_[vertex]));
-    return kept;
+    if (!keeps_signs_) return ask(vertex, plane);
+    const std::size_t word = vertex / word_bits;
+    const Word bit = bit_of(vertex);
+    Word &front = front_set(plane)[word], &back = back_set(plane)[word], &unasked = unasked_set(plane)[word];
+    if (unasked & bit) {
+        const int side = ask(vertex, plane);
+        front |= side > 0 ? bit : 0;
+        back |= side < 0 ? bit : 0;
+        unasked ^= bit;
+    }
+    return front & bit ? 1 : back & bit ? -1 : 0;
 }
 
 void TreeBuilder::cut(std::uint32_t index, std::uint32_t plane, std::uint32_t& front, std::uint32_t& back) {
@@ -164,9 +251,8 @@ void TreeBuilder::cut(std::uint32_t index, std::uint32_t plane, std::uint32_t& f
     corners_.insert(corners_.end(), back_.begin(), back_.end());
     front = static_cast<std::uint32_t>(pieces_.size());
     back = front + 1;
-    pieces_.push_back({begin, middle - begin, piece.plane, piece.reversed});
-    pieces_.push_back(
-        {middle, static_cast<std::uint32_t>(corners_.size()) - middle, piece.plane, piece.reversed});
+    add_piece({begin, middle - begin, piece.plane, piece.reversed});
+    add_piece({middle, static_cast<std::uint32_t>(corners_.size()) - middle, piece.plane, piece.reversed});
 }
 
 std::uint32_t TreeBuilder::make_vertex(const Piece& piece, std::uint32_t i, std::uint32_t plane) {
@@ -180,18 +266,26 @@ std::uint32_t TreeBuilder::make_vertex(const Piece& piece, std::uint32_t i, std:
     made_.push_back({made, vertex});
     vertices_.push_back(made);
     if (!keeps_signs_) return vertex;
-    // Between two points on one side of a plane, or one on it and one on a side, a point is on that side.
-    const std::size_t count = planes_.size();
-    signs_.resize(signs_.size() + count);
-    const std::int8_t* const from = signs_.data() + corner.vertex * count;
-    const std::int8_t* const to = signs_.data() + next * count;
-    std::int8_t* const to_set = signs_.data() + vertex * count;
-    for (std::size_t p = 0; p < count; ++p) {
-        const int sum = from[p] + to[p];
-        const bool known = from[p] != unknown && to[p] != unknown && (sum != 0 || from[p] == 0);
-        to_set[p] = known ? static_cast<std::int8_t>((sum > 0) - (sum < 0)) : unknown;
+    if (vertex == word_bits * words_) widen_sets();
+    // Between two points on one side of a plane, or one on it and one on a side, a point is on that side; between two
+    // points in it, in it. Only where the ends are on different sides it has to be asked.
+    const std::size_t from = corner.vertex / word_bits, to = next / word_bits, at = vertex / word_bits;
+    const Word from_bit = bit_of(corner.vertex), to_bit = bit_of(next), bit = bit_of(vertex);
+    for (std::uint32_t p = 0; p < planes_.size(); ++p) {
+        Word *const front = front_set(p), *const back = back_set(p), *const unasked = unasked_set(p);
+        if ((unasked[from] & from_bit) || (unasked[to] & to_bit)) continue;
+        const bool in_front = (front[from] & from_bit) || (front[to] & to_bit);
+        const bool behind = (back[from] & from_bit) || (back[to] & to_bit);
+        if (in_front && behind) continue;
+        unasked[at] &= ~bit;
+        if (in_front) front[at] |= bit;
+        if (behind) back[at] |= bit;
     }
-    to_set[plane] = to_set[piece.plane] = 0;
+    for (const std::uint32_t p : {plane, piece.plane}) {
+        unasked_set(p)[at] &= ~bit;
+        front_set(p)[at] &= ~bit;
+        back_set(p)[at] &= ~bit;
+    }
     return vertex;
 }
 

@@ -12,8 +12,10 @@
 //
 // Which plane is what the size of a tree depends on. Candidates are the planes of faces spread evenly over the list;
 // the one that cuts fewest, and among those halves best, wins. Signs of vertices are asked once for each plane and
-// kept in a table; a vertex that a cut makes on an edge inherits the signs on which the ends of the edge agree, and
-// lies on the planes that it was made from. So faces round a common vertex, which touch one another's planes in that
+// kept as bits: a plane has the set of vertices before it, that of those behind it, and that of those not asked about
+// yet; a face has the set of its vertices; and where the face lies are three intersections of sets, a word or two each.
+// A vertex that a cut makes on an edge inherits the signs on which the ends of the edge agree, and lies on the planes
+// that it was made from. So faces round a common vertex, which touch one another's planes in that
 // vertex and in shared edges, are never cut needlessly and hardly ever tested twice: what sorting them cyclically is
 // for in the source, without having to sort.
 //
@@ -59,17 +61,30 @@ class TreeBuilder {
         std::int32_t parent;  ///< node to hang the tree on
         bool is_front;
     };
-    struct Count {
-        std::uint32_t front = 0, back = 0, both = 0;
+    using Word = std::uint64_t;
+    /// On which sides of a plane a piece has something.
+    struct Sides {
+        bool front = false, back = false;
     };
 
     void gather(FragmentPool& pool, std::span<const Fragment> fragments);
     std::uint32_t choose(std::uint32_t begin, std::uint32_t end);
-    std::uint32_t score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end);
-    Count sides(const Piece& piece, std::uint32_t plane);
+    std::uint32_t score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end, std::uint32_t enough);
+    Sides sides(std::uint32_t piece, std::uint32_t plane);
+    int ask(std::uint32_t vertex, std::uint32_t plane) const;
     int sign(std::uint32_t vertex, std::uint32_t plane);
     void cut(std::uint32_t piece, std::uint32_t plane, std::uint32_t& front, std::uint32_t& back);
     std::uint32_t make_vertex(const Piece& piece, std::uint32_t corner, std::uint32_t plane);
+    void begin_sets();
+    void widen_sets();
+    void add_piece(const Piece& piece);
+    void fill_piece_set(std::uint32_t piece);
+    bool has_piece_sets() const { return !piece_sets_.empty(); }
+
+    Word* front_set(std::uint32_t plane) { return sets_.data() + 3 * plane * words_; }
+    Word* back_set(std::uint32_t plane) { return front_set(plane) + words_; }
+    Word* unasked_set(std::uint32_t plane) { return front_set(plane) + 2 * words_; }
+    Word* vertices_of(std::uint32_t piece) { return piece_sets_.data() + piece * words_; }
 
     BuildOptions options_;
     std::uint64_t splits_ = 0, random_ = 1;
@@ -82,7 +97,9 @@ class TreeBuilder {
     std::vector<Piece> pieces_;
     std::vector<std::uint32_t> list_, front_, back_list_;
     std::vector<Task> tasks_;
-    std::vector<std::int8_t> signs_;  ///< vertex · planes + plane; unknown = 2
+    // Sets of vertices, words_ words each: three of a plane, and one of a piece unless they would be long.
+    std::size_t words_ = 1;
+    std::vector<Word> sets_, piece_sets_;
     bool keeps_signs_ = true;
     struct Made {
         VertexId vertex;
