@@ -153,6 +153,12 @@ Result<io::ReadMesh> read_surface(Session& session, const Context& context, cons
     return read_mesh(session, context, path, format);
 }
 
+Result<io::ReadMesh> read_operand(Session& session, const Context& context, const std::string& path,
+                                  const std::string& format) {
+    return kind_of(path, format) == ModelKind::octree ? read_mesh(session, context, path, format)
+                                                      : read_surface(session, context, path, format);
+}
+
 Result<io::CsgFile> read_csg(Session& session, const Context& context, const std::string& path,
                              const io::CsgReadOptions& options) {
     session.inputs.push_back(path);

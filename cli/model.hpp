@@ -44,6 +44,11 @@ struct SurfaceOptions {
 Result<io::ReadMesh> read_surface(Session& session, const Context& context, const std::string& path,
                                   const std::string& format = "", const SurfaceOptions& options = {});
 
+/// The same for operands of exact operations: an octree whose cells only come near a solid is refused, with the verb
+/// that makes a mesh of it.
+Result<io::ReadMesh> read_operand(Session& session, const Context& context, const std::string& path,
+                                  const std::string& format = "");
+
 Result<io::CsgFile> read_csg(Session& session, const Context& context, const std::string& path,
                              const io::CsgReadOptions& options);
 

@@ -64,7 +64,7 @@ Result<std::vector<mesh::Mesh>> read_operands(Session& session, const Context& c
                                               const BooleanOptions& options) {
     std::vector<mesh::Mesh> operands;
     for (const std::string& path : options.operands) {
-        Result<io::ReadMesh> read = read_mesh(session, context, path);
+        Result<io::ReadMesh> read = read_operand(session, context, path);
         if (!read) return std::move(read).error();
         operands.push_back(std::move(read->mesh));
     }

@@ -3,9 +3,9 @@
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
 #include <octavo/bsp_octree/build.hpp>
-#include <octavo/bsp_octree/to_mesh.hpp>
 
 #include "bsp_octree_facts.hpp"
+#include "bsp_octree_output.hpp"
 #include "model.hpp"
 #include "program.hpp"
 
@@ -25,7 +25,7 @@ Result<bsp_octree::BspOctree> load(Session& session, const Context& context, con
         session.inputs.push_back(arguments.input);
         return session.timed("read", [&] { return bsp_octree::read_bso(arguments.input, context); });
     }
-    Result<io::ReadMesh> read = read_mesh(session, context, arguments.input, arguments.format);
+    Result<io::ReadMesh> read = read_operand(session, context, arguments.input, arguments.format);
     if (!read) return std::move(read).error();
     bsp_octree::MeshOptions options;
     options.octree.planes = arguments.planes;
@@ -41,37 +41,16 @@ Result<bsp_octree::BspOctree> load(Session& session, const Context& context, con
     return std::move(built->octree);
 }
 
-/// A .bso file, or the mesh of the tree.
-const OutputFormats& bsp_outputs() {
-    static const OutputFormats formats = [] {
-        OutputFormats all{"BSP-octrees", {"bso"}, "bso"};
-        all.names.insert(all.names.end(), mesh_outputs().names.begin(), mesh_outputs().names.end());
-        return all;
-    }();
-    return formats;
-}
-
-Result<io::WriteReport> store(Session& session, const Context& context, const bsp_octree::BspOctree& octree,
-                              const std::string& path, const std::string& format) {
-    if (format == "bso") {
-        if (path == "-") session.stdout_taken = true;
-        return session.timed("write", [&] { return bsp_octree::write_bso(path, octree, context); });
-    }
-    Result<bsp_octree::ToMesh> made =
-        session.timed("mesh", [&] { return bsp_octree::to_mesh(octree, context); });
-    if (!made) return std::move(made).error();
-    return write_mesh(session, context, path, made->mesh, {.format = format});
-}
-
 Result<ExitCode> make_bsp(Session& session, const BspArguments& arguments) {
     const Context context = session.context();
     const Result<std::string> format =
-        settle_output(session, {arguments.input}, arguments.output, "", bsp_outputs());
+        settle_output(session, {arguments.input}, arguments.output, "", bsp_octree_outputs());
     if (!format) return format.error();
     Result<bsp_octree::BspOctree> octree = load(session, context, arguments);
     if (!octree) return std::move(octree).error();
     if (!arguments.output.empty()) {
-        const Result<io::WriteReport> written = store(session, context, *octree, arguments.output, *format);
+        const Result<WrittenBspOctree> written =
+            write_bsp_octree(session, context, arguments.output, *octree, *format);
         if (!written) return written.error();
     }
     tell(session, *octree, bsp_octree::encode(*octree).size());
@@ -84,7 +63,8 @@ void add_bsp(Program& program) {
     const auto arguments = std::make_shared<BspArguments>();
     Verb* verb = program.verb("bsp", "Trees", "Make the BSP-octree of a solid, exactly, or a mesh of one",
                               [arguments](Session& session) { return make_bsp(session, *arguments); });
-    verb->add_option("FILE", arguments->input, "A closed mesh (- is stdin), or a BSP-octree (.bso)")
+    verb->add_option("FILE", arguments->input,
+                     "A closed mesh (- is stdin), a .csg tree, or a .bso or .bpo octree")
         ->required()
         ->type_name("FILE");
     verb->add_option(

@@ -62,7 +62,7 @@ Result<boolean::Evaluated> evaluate_formula(Session& session, const Context& con
                                             const std::vector<std::string>& files) {
     std::vector<mesh::Mesh> meshes;
     for (const std::string& file : files) {
-        Result<io::ReadMesh> read = read_mesh(session, context, file);
+        Result<io::ReadMesh> read = read_operand(session, context, file);
         if (!read) return std::move(read).error();
         meshes.push_back(std::move(read->mesh));
     }
@@ -131,7 +131,8 @@ void add_eval(Program& program) {
         ->required()
         ->check(check_expression)
         ->type_name("EXPRESSION");
-    verb->add_option("OPERANDS", options->operands, "The closed mesh that each name stands for")
+    verb->add_option("OPERANDS", options->operands,
+                     "The closed mesh, .csg tree, .bso or .bpo that each name stands for")
         ->check(check_operand)
         ->type_name("NAME=FILE");
     verb->add_flag("--skip-unsupported", options->skip_unsupported,

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <octavo/bsp_octree/mill.hpp>
-#include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/io/poses.hpp>
 
+#include "bsp_octree_output.hpp"
 #include "model.hpp"
 #include "program.hpp"
 
@@ -28,25 +28,28 @@ double quantile(std::vector<double> values, double part) {
     return values[at];
 }
 
-void tell(Session& session, const bsp_octree::Milled& milled, const bsp_octree::ToMesh& made,
+void tell(Session& session, const bsp_octree::Milled& milled, const WrittenBspOctree& written,
           const std::string& output) {
-    const mesh::Measures measures = mesh::measure(made.mesh);
+    const mesh::Measures measures = bsp_octree::measure(milled.solid);
     const bsp_octree::MillReport& report = milled.report;
     const double median = quantile(report.step_seconds, 0.5);
     session.result = {{"steps", report.steps},
-                      {"triangles", made.mesh.triangles.size()},
                       {"volume", measures.volume},
                       {"seconds_per_step", median},
                       {"area", measures.area},
                       {"cutting_steps", report.cutting_steps},
                       {"slowest_step", quantile(report.step_seconds, 1)},
-                      {"bytes", milled.solid.store().bytes()},
-                      {"largest_rounding", made.report.largest_rounding},
-                      {"inverted_facets", made.report.inverted_facets}};
-    session.text = fmt::format("{}: {} triangles, volume {:.10g}, after {} steps, {:.2f} ms each (median)\n",
-                               output, grouped(made.mesh.triangles.size()), measures.volume,
-                               grouped(report.steps), 1e3 * median);
-    if (made.mesh.triangles.empty()) session.warn("nothing is left of the workpiece");
+                      {"bytes", milled.solid.store().bytes()}};
+    std::string what = grouped(written.report.bytes) + " bytes";
+    if (written.made) {
+        session.result["triangles"] = written.made->mesh.triangles.size();
+        session.result["largest_rounding"] = written.made->report.largest_rounding;
+        session.result["inverted_facets"] = written.made->report.inverted_facets;
+        what = grouped(written.made->mesh.triangles.size()) + " triangles";
+    }
+    session.text = fmt::format("{}: {}, volume {:.10g}, after {} steps, {:.2f} ms each (median)\n", output,
+                               what, measures.volume, grouped(report.steps), 1e3 * median);
+    if (milled.solid.is_empty()) session.warn("nothing is left of the workpiece");
     if (report.cutting_steps == 0) session.warn("the tool never meets the workpiece");
 }
 
@@ -54,11 +57,11 @@ Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
     const Context context = session.context();
     const Result<std::string> format =
         settle_output(session, {arguments.work, arguments.tool, arguments.path}, arguments.output,
-                      arguments.format, mesh_outputs());
+                      arguments.format, bsp_octree_outputs());
     if (!format) return format.error();
-    Result<io::ReadMesh> work = read_mesh(session, context, arguments.work);
+    Result<io::ReadMesh> work = read_operand(session, context, arguments.work);
     if (!work) return std::move(work).error();
-    Result<io::ReadMesh> tool = read_mesh(session, context, arguments.tool);
+    Result<io::ReadMesh> tool = read_operand(session, context, arguments.tool);
     if (!tool) return std::move(tool).error();
     session.inputs.push_back(arguments.path);
     Result<std::vector<Affine>> poses =
@@ -68,13 +71,10 @@ Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
     Result<bsp_octree::Milled> milled =
         session.timed("mill", [&] { return bsp_octree::mill(work->mesh, tool->mesh, *poses, {}, context); });
     if (!milled) return std::move(milled).error();
-    Result<bsp_octree::ToMesh> made =
-        session.timed("mesh", [&] { return bsp_octree::to_mesh(milled->solid, context); });
-    if (!made) return std::move(made).error();
-    Result<io::WriteReport> written =
-        write_mesh(session, context, arguments.output, made->mesh, {.format = *format});
-    if (!written) return std::move(written).error();
-    tell(session, *milled, *made, arguments.output);
+    const Result<WrittenBspOctree> written =
+        write_bsp_octree(session, context, arguments.output, milled->solid, *format);
+    if (!written) return written.error();
+    tell(session, *milled, *written, arguments.output);
     return ExitCode::ok;
 }
 
@@ -84,16 +84,20 @@ void add_mill(Program& program) {
     const auto arguments = std::make_shared<MillArguments>();
     Verb* verb = program.verb("mill", "Edit", "Subtract a tool at thousands of poses, exactly",
                               [arguments](Session& session) { return mill(session, *arguments); });
-    verb->add_option("WORK", arguments->work, "The workpiece, a closed mesh")->required()->type_name("FILE");
-    verb->add_option("--tool", arguments->tool, "The tool, a closed mesh about its own origin")
+    verb->add_option("WORK", arguments->work,
+                     "The workpiece: a closed mesh, a .csg tree, a .bso or .bpo octree")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("--tool", arguments->tool, "The tool, likewise, about its own origin")
         ->required()
         ->type_name("FILE");
     verb->add_option("--path", arguments->path,
                      "Poses of the tool, one a line: x,y,z, or 12 numbers (3 rows of 4, row-major)")
         ->required()
         ->type_name("FILE");
-    verb->add_option("-o,--output", arguments->output,
-                     "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")
+    verb->add_option(
+            "-o,--output", arguments->output,
+            "What to write, a BSP-octree or a mesh: " + one_of(bsp_octree_outputs().names) + "; - is stdout")
         ->required()
         ->type_name("FILE");
     verb->add_option("--to", arguments->format, "Format of the output, instead of by its extension")

@@ -44,6 +44,33 @@ TEST_F(BspVerbs, MillTakesTheToolAwayAtEveryPose) {
     EXPECT_EQ(octavo("check part.ply").exit_code, 0);
 }
 
+TEST_F(BspVerbs, GoWhereverSolidsDo) {
+    // A boundary of TetGen with a pierced facet, milled to a .bso file, cut and drawn from there.
+    write("block.poly",
+          "16 3\n1 0 0 0\n2 6 0 0\n3 6 6 0\n4 0 6 0\n5 0 0 6\n6 6 0 6\n7 6 6 6\n8 0 6 6\n9 2 2 0\n10 4 2 0\n"
+          "11 4 4 0\n12 2 4 0\n13 2 2 6\n14 4 2 6\n15 4 4 6\n16 2 4 6\n10\n2 1\n4 1 4 3 2\n4 9 10 11 12\n1 3 "
+          "3 0\n"
+          "2 1\n4 5 6 7 8\n4 13 14 15 16\n1 3 3 6\n1\n4 1 2 6 5\n1\n4 2 3 7 6\n1\n4 3 4 8 7\n1\n4 4 1 5 8\n"
+          "1\n4 9 13 14 10\n1\n4 10 14 15 11\n1\n4 11 15 16 12\n1\n4 12 16 13 9\n");
+    write("tool.csg", "cube(size = [2, 2, 2], center = true);\n");
+    write("poses.csv", "0,0,0\n6,6,6\n");
+    const Ran milled = octavo("mill block.poly --tool tool.csg --path poses.csv -o part.bso --json");
+    ASSERT_EQ(milled.exit_code, 0) << milled.err;
+    EXPECT_NEAR(milled.json()["result"]["volume"], 216 - 24 - 2, 1e-6);
+    EXPECT_FALSE(milled.json()["result"].contains("triangles"));
+    const Ran tree = octavo("bsp block.poly -o block.bso --json");
+    ASSERT_EQ(tree.exit_code, 0) << tree.err;
+    EXPECT_EQ(tree.json()["result"]["planes"], 10);
+    ASSERT_EQ(octavo("difference block.bso part.bso -o chips.ply").exit_code, 0);
+    EXPECT_NEAR(octavo("info chips.ply --json").json()["result"]["volume"], 2, 1e-6);
+    ASSERT_EQ(octavo("eval 'b - p' b=block.poly p=part.bso -o chips2.ply").exit_code, 0);
+    EXPECT_NEAR(octavo("info chips2.ply --json").json()["result"]["volume"], 2, 1e-6);
+    ASSERT_EQ(octavo("bsp tool.csg -o tool.bso").exit_code, 0);
+    EXPECT_EQ(octavo("render part.bso -o part.svg").exit_code, 0);
+    ASSERT_EQ(octavo("convert part.bso part.poly").exit_code, 0);
+    EXPECT_NEAR(octavo("info part.poly --json").json()["result"]["volume"], 190, 1e-6);
+}
+
 TEST_F(BspVerbs, RefuseBadFilesWithTheirPlace) {
     ASSERT_EQ(octavo("shape cube -o cube.ply").exit_code, 0);
     write("poses.csv", "1,2,3\n1,2\n");
