@@ -26,7 +26,7 @@ class PairSearch {
   public:
     PairSearch(const Surface& surface, const Soup& soup, const RoundedPoints& rounded)
         : surface_(surface), soup_(soup), rounded_(rounded), merged_(surface.merged) {
-        const double units = 4 * rounding_bound(soup.lattice) * exact::universe_side;
+        const double units = 4 * placing_bound(soup.lattice) * exact::universe_side;
         tight_distance_ = units / contact_reach(soup.lattice) + 1;
         std::sort(merged_.begin(), merged_.end());
         chain();
@@ -181,6 +181,9 @@ class PairSearch {
     std::vector<Pair> pairs_;
 };
 
+/// Boxes are larger by this: mending takes points to doubles beside theirs, which are a lattice unit away at most.
+constexpr std::int32_t mending = 1;
+
 /// Groups of more triangles than this get a tree.
 constexpr std::uint32_t large_group = 64;
 
@@ -214,9 +217,11 @@ void NearFacets::fill_groups(const Surface& surface, const RoundedPoints& rounde
             const mesh::Triangle& t = surface.triangles[i];
             const exact::Point a = below(t[0]), b = below(t[1]), c = below(t[2]);
             triangles_.push_back(i);
-            boxes_.push_back(
-                {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-                 {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}});
+            const exact::Point low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
+                                   std::min({a.z, b.z, c.z})},
+                high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
+            boxes_.push_back({{low.x - mending, low.y - mending, low.z - mending},
+                              {high.x + mending, high.y + mending, high.z + mending}});
         }
         groups_.push_back({facet, begin, static_cast<std::uint32_t>(triangles_.size()), no_index});
     }
@@ -233,7 +238,7 @@ void NearFacets::fill_groups(const Surface& surface, const RoundedPoints& rounde
         std::vector<std::uint32_t> positions(group.size());
         for (std::uint32_t i = 0; i < positions.size(); ++i) positions[i] = group.begin + i;
         group.tree = static_cast<std::uint32_t>(trees_.size());
-        trees_.emplace_back(corners, std::move(positions), 0, context);
+        trees_.emplace_back(corners, std::move(positions), mending, context);
     }
 }
 

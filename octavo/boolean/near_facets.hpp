@@ -37,10 +37,14 @@
 
 namespace octavo::boolean {
 
+/// No coordinate is farther from its exact place, in lattice units: half a step from double to double for the nearest
+/// one, and a whole one where rounding_faults.hpp takes one beside it.
+inline double placing_bound(const exact::Lattice& lattice) { return 3 * rounding_bound(lattice); }
+
 /// How near to each other facets must be that find_contacts is to tell of, in lattice units. More makes the filter let
 /// more pairs through, less makes more facets tight.
 inline double contact_reach(const exact::Lattice& lattice) {
-    return std::max(0x1p-6, 4 * rounding_bound(lattice));
+    return std::max(0x1p-6, 4 * placing_bound(lattice));
 }
 
 class NearFacets {
@@ -55,7 +59,7 @@ class NearFacets {
     const std::vector<Pair>& pairs() const { return pairs_; }
     bool empty() const { return pairs_.empty(); }
 
-    /// Calls `visit(first, second)` for the triangles of a pair whose rounded boxes meet; once for two of one facet.
+    /// Calls `visit(first, second)` for the triangles of a pair whose boxes meet; once for two of one facet.
     template <class Visit>
     void for_each(const Pair& pair, const Visit& visit) const {
         const Group &first = group_of(pair.first), &second = group_of(pair.second);
@@ -68,7 +72,7 @@ class NearFacets {
     }
 
   private:
-    /// Rounded down to lattice points.
+    /// On the lattice, with room for what mending does.
     struct Box {
         exact::Point low, high;
     };

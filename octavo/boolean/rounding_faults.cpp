@@ -177,8 +177,6 @@ class Mending {
 
     void run(const RoundingFaults& faults, const Context& context) {
         find_points(faults);
-        std::vector<RoundedPoints::Point> start;
-        for (const PointId point : points_) start.push_back(rounded_[point]);
         constexpr int most_rounds = 4;
         for (int round = 0; round < most_rounds; ++round) {
             bool any = false;
@@ -188,10 +186,10 @@ class Mending {
         }
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const RoundedPoints::Point end = rounded_[points_[i]];
-            if (end == start[i]) continue;
+            if (end == nearest_[i]) continue;
             ++moved_points;
             for (std::size_t axis = 0; axis < 3; ++axis)
-                farthest_move = std::max(farthest_move, std::abs(end[axis] - start[i][axis]));
+                farthest_move = std::max(farthest_move, std::abs(end[axis] - nearest_[i][axis]));
         }
     }
 
@@ -208,6 +206,11 @@ class Mending {
         for (const auto& [first, second] : faults.crossing) add(first), add(second);
         std::sort(points_.begin(), points_.end());
         points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+        for (const PointId point : points_) {
+            nearest_.push_back(rounded_[point]);
+            spacing_.push_back(
+                {rounded_.spacing(0, point), rounded_.spacing(1, point), rounded_.spacing(2, point)});
+        }
         stars_.resize(points_.size());
         for (std::uint32_t i = 0; i < surface_.triangles.size(); ++i)
             for (const PointId corner : surface_.triangles[i]) {
@@ -254,7 +257,8 @@ class Mending {
         return count;
     }
 
-    /// Tries the places about a point; whether it has found a better one.
+    /// Tries the nearest place and those about it; whether it has found a better one. None is farther from the exact
+    /// point than near_facets.hpp allows for.
     bool improve(std::size_t number) {
         const PointId id = points_[number];
         const std::vector<std::uint32_t>& star = stars_[number];
@@ -266,7 +270,9 @@ class Mending {
         for (int place = 0; place < 27; ++place) {
             RoundedPoints::Point to = start;
             for (int axis = 0, rest = place; axis < 3; ++axis, rest /= 3)
-                to[static_cast<std::size_t>(axis)] += (rest % 3 - 1) * rounded_.spacing(axis, id);
+                to[static_cast<std::size_t>(axis)] =
+                    nearest_[number][static_cast<std::size_t>(axis)] +
+                    (rest % 3 - 1) * spacing_[number][static_cast<std::size_t>(axis)];
             rounded_.move(id, to);
             const std::size_t count = faults_about(star, pairs);
             rounded_.move(id, start);
@@ -281,7 +287,8 @@ class Mending {
     RoundedPoints& rounded_;
     const FaultSearch& search_;
     std::vector<PointId> points_;
-    std::vector<std::vector<std::uint32_t>> stars_;                  ///< triangles about each point
+    std::vector<RoundedPoints::Point> nearest_, spacing_;  ///< where each point was, and steps from there
+    std::vector<std::vector<std::uint32_t>> stars_;        ///< triangles about each point
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_of_;  ///< facet and pair, sorted
 };
 

@@ -163,7 +163,7 @@ TEST(MendRounding, TellsOfAllFaultsWhereDoublesAreCoarse) {
     // So far from the world's origin, doubles are whole numbers and bodies a few of these long.
     const Vec3 origin{0x1p52, 0x1p52, 0x1p52};
     std::size_t mended = 0, left = 0, faulty = 0;
-    for (int run = 0; run < 600 * tests::effort() && !testing::Test::HasFailure(); ++run) {
+    for (int run = 0; run < 650 * tests::effort() && !testing::Test::HasFailure(); ++run) {
         std::mt19937 random(static_cast<unsigned>(run));
         std::vector<mesh::Mesh> bodies;
         for (int body = 0; body < 2 + run % 3; ++body) {
