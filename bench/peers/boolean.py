@@ -26,6 +26,8 @@ import time
 
 import numpy
 
+from off_file import read_off, write_off
+
 ENGINES = ("octavo", "manifold", "trueform", "cgal")
 COLUMNS = ("case", "operation", "input", "engine", "cpu_s", "times_octavo", "peak_mb", "triangles", "volume", "defect",
            "exact_share", "speed_up_2_threads", "commit")
@@ -63,23 +65,6 @@ class PeakMemory:
 
 
 # ---------------------------------------------------------------------------------------------------------------- meshes
-
-def write_off(path, mesh):
-    points, triangles = mesh
-    with open(path, "w") as file:
-        file.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
-        file.writelines(f"{x!r} {y!r} {z!r}\n" for x, y, z in numpy.asarray(points, float).tolist())
-        file.writelines(f"3 {a} {b} {c}\n" for a, b, c in numpy.asarray(triangles).tolist())
-
-
-def read_off(path):
-    with open(path) as file:
-        numbers = file.read().split()
-    points, triangles = int(numbers[1]), int(numbers[2])
-    end = 4 + 3 * points
-    return (numpy.array(numbers[4:end], float).reshape(-1, 3),
-            numpy.array(numbers[end:end + 4 * triangles], numpy.int64).reshape(-1, 4)[:, 1:])
-
 
 def read_model(path):
     """PLY (binary, triangles) and OBJ as the models have them."""

@@ -21,18 +21,11 @@ import tempfile
 
 import numpy
 
+from off_file import read_off
+
 
 def user_seconds():
     return resource.getrusage(resource.RUSAGE_SELF).ru_utime
-
-
-def read_off(path):
-    with open(path) as file:
-        numbers = file.read().split()
-    points, triangles = int(numbers[1]), int(numbers[2])
-    end = 4 + 3 * points
-    return (numpy.array(numbers[4:end], float).reshape(-1, 3),
-            numpy.array(numbers[end:end + 4 * triangles], numpy.int64).reshape(-1, 4)[:, 1:])
 
 
 def quantile(values, part):

@@ -26,20 +26,27 @@ inline void check_sound(const io::ReadMesh& read) {
         OCTAVO_CHECK(polygon < read.polygons, "triangles name polygons of the file");
 }
 
+/// Reads as triangles and as polygons; fails only with a sentence.
+inline Result<io::ReadMesh> read_soundly(const std::uint8_t* data, std::size_t size,
+                                         const io::ReadOptions& options) {
+    const Bytes bytes = bytes_of({reinterpret_cast<const char*>(data), size});
+    Result<io::ReadMesh> read = io::read_mesh(bytes, options);
+    const Result<io::ReadPolygons> polygons = io::read_polygons(bytes, options);
+    if (!read) {
+        OCTAVO_CHECK(!read.error().sentence.empty(), "an error has a sentence");
+        OCTAVO_CHECK(read.error().code != ErrorCode::internal, "bad bytes are not our defect");
+        return read;
+    }
+    check_sound(*read);
+    OCTAVO_CHECK(polygons.has_value(), "what makes triangles makes polygons");
+    return read;
+}
+
 inline void read_write_read(const std::uint8_t* data, std::size_t size, const char* format,
                             io::Encoding encoding) {
     const io::ReadOptions options{.format = format, .max_triangles = 1'000'000};
-    const octavo::Bytes bytes = octavo::bytes_of({reinterpret_cast<const char*>(data), size});
-    const Result<io::ReadMesh> first = io::read_mesh(bytes, options);
-    const Result<io::ReadPolygons> polygons = io::read_polygons(bytes, options);
-    if (!first) {
-        OCTAVO_CHECK(!first.error().sentence.empty(), "an error has a sentence");
-        OCTAVO_CHECK(first.error().code != ErrorCode::internal, "bad bytes are not our defect");
-        return;
-    }
-    check_sound(*first);
-    OCTAVO_CHECK(polygons.has_value(), "what makes triangles makes polygons");
-
+    const Result<io::ReadMesh> first = read_soundly(data, size, options);
+    if (!first) return;
     const Result<io::WrittenBytes> written =
         io::write_mesh(first->mesh, {.format = format, .encoding = encoding});
     OCTAVO_CHECK(written.has_value(), "what was read can be written");
