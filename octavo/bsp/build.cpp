@@ -75,26 +75,15 @@ void TreeBuilder::build(FragmentPool& pool, std::span<const Fragment> fragments,
 void TreeBuilder::gather(FragmentPool& pool, std::span<const Fragment> fragments) {
     OCTAVO_CHECK(!fragments.empty(), "a BSP tree needs a face");
     pool_ = &pool;
-    planes_.clear(), vertices_.clear(), corners_.clear(), pieces_.clear();
-    for (const Fragment& f : fragments) {
-        planes_.push_back(f.facing.plane());
-        for (const Corner& corner : pool.corners(f)) vertices_.push_back(corner.vertex);
-    }
-    const auto make_unique = [](auto& numbers) {
-        std::sort(numbers.begin(), numbers.end());
-        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    };
-    const auto number_of = [](const auto& numbers, std::uint32_t value) {
-        return static_cast<std::uint32_t>(std::lower_bound(numbers.begin(), numbers.end(), value) -
-                                          numbers.begin());
-    };
-    make_unique(planes_), make_unique(vertices_);
+    plane_number_.clear(), vertex_number_.clear(), corners_.clear(), pieces_.clear();
     for (const Fragment& f : fragments) {
         pieces_.push_back({static_cast<std::uint32_t>(corners_.size()), f.count,
-                           number_of(planes_, f.facing.plane()), f.facing.reversed()});
+                           plane_number_(f.facing.plane()), f.facing.reversed()});
         for (const Corner& corner : pool.corners(f))
-            corners_.push_back({number_of(vertices_, corner.vertex), corner.edge});
+            corners_.push_back({vertex_number_(corner.vertex), corner.edge});
     }
+    planes_.assign(plane_number_.values().begin(), plane_number_.values().end());
+    vertices_.assign(vertex_number_.values().begin(), vertex_number_.values().end());
     keeps_signs_ = vertices_.size() * planes_.size() <= most_signs;
     piece_sets_.clear();
     if (keeps_signs_) begin_sets();
@@ -187,7 +176,8 @@ std::uint32_t TreeBuilder::score(std::uint32_t plane, std::uint32_t begin, std::
     return cost_of_cut * both + (front > back ? front - back : back - front);
 }
 
-TreeBuilder::Sides TreeBuilder::sides(std::uint32_t number, std::uint32_t plane) {
+/// As sides(), where some vertex was not asked about yet or sets are not kept.
+TreeBuilder::Sides TreeBuilder::ask_sides(std::uint32_t number, std::uint32_t plane) {
     Sides result;
     const Piece& piece = pieces_[number];
     if (!has_piece_sets()) {
@@ -200,7 +190,6 @@ TreeBuilder::Sides TreeBuilder::sides(std::uint32_t number, std::uint32_t plane)
     }
     const Word* const vertices = vertices_of(number);
     Word *const front = front_set(plane), *const back = back_set(plane), *const unasked = unasked_set(plane);
-    Word any_front = 0, any_back = 0;
     for (std::size_t w = 0; w < words_; ++w) {
         for (Word open = vertices[w] & unasked[w]; open; open &= open - 1) {
             const Word bit = open & (~open + 1);
@@ -211,10 +200,10 @@ TreeBuilder::Sides TreeBuilder::sides(std::uint32_t number, std::uint32_t plane)
             back[w] |= side < 0 ? bit : 0;
             unasked[w] ^= bit;
         }
-        any_front |= vertices[w] & front[w];
-        any_back |= vertices[w] & back[w];
+        result.front = result.front || (vertices[w] & front[w]);
+        result.back = result.back || (vertices[w] & back[w]);
     }
-    return {any_front != 0, any_back != 0};
+    return result;
 }
 
 int TreeBuilder::ask(std::uint32_t vertex, std::uint32_t plane) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <octavo/bsp/fragment.hpp>
+#include <octavo/bsp/numbering.hpp>
 #include <octavo/bsp/tree.hpp>
 
 // From faces to a BSP tree: choose the plane of a face, send the others to its sides, cut those on both, repeat.
@@ -70,7 +71,19 @@ class TreeBuilder {
     void gather(FragmentPool& pool, std::span<const Fragment> fragments);
     std::uint32_t choose(std::uint32_t begin, std::uint32_t end);
     std::uint32_t score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end, std::uint32_t enough);
-    Sides sides(std::uint32_t piece, std::uint32_t plane);
+    Sides sides(std::uint32_t piece, std::uint32_t plane) {
+        if (!has_piece_sets()) return ask_sides(piece, plane);
+        const Word *const vertices = vertices_of(piece), *const front = front_set(plane);
+        const Word *const back = front + words_, *const unasked = back + words_;
+        Word any_front = 0, any_back = 0, open = 0;
+        for (std::size_t w = 0; w < words_; ++w) {
+            any_front |= vertices[w] & front[w];
+            any_back |= vertices[w] & back[w];
+            open |= vertices[w] & unasked[w];
+        }
+        return open ? ask_sides(piece, plane) : Sides{any_front != 0, any_back != 0};
+    }
+    Sides ask_sides(std::uint32_t piece, std::uint32_t plane);
     int ask(std::uint32_t vertex, std::uint32_t plane) const;
     int sign(std::uint32_t vertex, std::uint32_t plane);
     void cut(std::uint32_t piece, std::uint32_t plane, std::uint32_t& front, std::uint32_t& back);
@@ -91,6 +104,7 @@ class TreeBuilder {
 
     // Everything below is of the tree at hand; vertices and planes have numbers of their own, from 0.
     FragmentPool* pool_ = nullptr;
+    Numbering plane_number_, vertex_number_;
     std::vector<PlaneId> planes_;
     std::vector<VertexId> vertices_;
     std::vector<Corner> corners_, back_;
