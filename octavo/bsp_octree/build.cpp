@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include <octavo/bsp_octree/build.hpp>
-#include <octavo/bsp_octree/separating_surface.hpp>
+#include <octavo/bsp_octree/resolve_surface.hpp>
 #include <octavo/bsp_octree/subdivide.hpp>
 #include <octavo/classic/closed_surface.hpp>
 #include <octavo/classic/crossing.hpp>

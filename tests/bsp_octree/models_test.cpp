@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include <octavo/bsp_octree/bso_format.hpp>
-#include <octavo/bsp_octree/separating_surface.hpp>
+#include <octavo/bsp_octree/resolve_surface.hpp>
 #include <octavo/classic/closed_surface.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/io/write.hpp>

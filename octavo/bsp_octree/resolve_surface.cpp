@@ -3,7 +3,7 @@
 #include <span>
 
 #include <octavo/boolean/evaluate.hpp>
-#include <octavo/bsp_octree/separating_surface.hpp>
+#include <octavo/bsp_octree/resolve_surface.hpp>
 #include <octavo/exact/orient.hpp>
 #include <octavo/mesh/self_intersection.hpp>
 #include <octavo/mesh/shells.hpp>
