@@ -4,7 +4,7 @@
 
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
-#include <octavo/io/input.hpp>
+#include <octavo/io/input_stream.hpp>
 #include <octavo/io/output.hpp>
 
 namespace octavo::bsp_octree {
@@ -18,10 +18,11 @@ Error in_file(Error error, const std::string& path) {
 }  // namespace
 
 Result<BspOctree> read_bso(const std::string& path, const Context& context) try {
-    const Result<io::ByteBlock> block = io::read_bytes(path, context);
-    if (!block) return block.error();
-    Result<BspOctree> octree =
-        decode({reinterpret_cast<const std::uint8_t*>(block->bytes().data()), block->size()});
+    Result<io::InputStream> stream = io::InputStream::open(path);
+    if (!stream) return in_file(std::move(stream).error(), path);
+    Result<BspOctree> octree = decode(
+        [&](std::span<std::uint8_t> room) { return stream->read(std::as_writable_bytes(room), context); },
+        context);
     if (!octree) return in_file(std::move(octree).error(), path);
     return octree;
 } catch (const std::bad_alloc&) {
@@ -31,13 +32,12 @@ Result<BspOctree> read_bso(const std::string& path, const Context& context) try 
 Result<io::WriteReport> write_bso(const std::string& path, const BspOctree& octree, const Context& context) {
     Result<io::Output> output = io::Output::to_file(path);
     if (!output) return output.error();
-    const std::vector<std::uint8_t> bytes = encode(octree);
-    output->append(octavo::Bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()));
+    encode(octree, [&](std::span<const std::uint8_t> bytes) { output->append(std::as_bytes(bytes)); });
     if (context.cancelled()) return Context::cancelled_error();
-    if (Status status = output->commit(); !status) return status.error();
     io::WriteReport report;
     report.format = "bso";
-    report.bytes = bytes.size();
+    report.bytes = output->size();
+    if (Status status = output->commit(); !status) return status.error();
     return report;
 }
 

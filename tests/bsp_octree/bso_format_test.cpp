@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
 #include <random>
 
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
 #include <octavo/mesh/shapes.hpp>
 
+#include "bsp_octree/bso_bytes.hpp"
 #include "bsp_octree/solid_cases.hpp"
 #include "effort.hpp"
 #include "io/folder.hpp"
@@ -12,18 +15,28 @@
 namespace octavo::bsp_octree {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using Bytes = tests::FileBytes;
 
-/// Sets the checksum right again, so that what is behind it is tested.
-void seal(Bytes& bytes) {
-    for (std::size_t i = 16; i < 20; ++i) bytes[i] = 0;
-    std::uint32_t crc = 0xFFFFFFFFU;
-    for (const std::uint8_t byte : bytes) {
-        crc ^= byte;
-        for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xEDB88320U : crc >> 1;
-    }
-    for (std::size_t i = 0; i < 4; ++i) bytes[16 + i] = static_cast<std::uint8_t>(~crc >> (8 * i));
+/// A solid whose file has several blocks.
+const BspOctree& rough_ball() {
+    static const BspOctree ball = tests::octree_of(mesh::displaced_sphere(14));
+    return ball;
 }
+
+/// Delivers bytes in pieces of `step` at most, and counts them.
+struct Pipe {
+    Bytes bytes;
+    std::size_t step, delivered = 0;
+
+    ByteSource source() {
+        return [this](std::span<std::uint8_t> room) -> Result<std::size_t> {
+            const std::size_t given = std::min({step, room.size(), bytes.size() - delivered});
+            std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(delivered), given, room.begin());
+            delivered += given;
+            return given;
+        };
+    }
+};
 
 TEST(BsoFormat, BringsSolidsBack) {
     const BspOctree ball = tests::octree_of(mesh::icosphere(3, 8)), gear = tests::octree_of(mesh::gear());
@@ -54,20 +67,100 @@ TEST(BsoFormat, IsSmallerThanABinaryPly) {
     EXPECT_LT(encode(built->octree).size(), ply_bytes * 3 / 2);
 }
 
+TEST(BsoFormat, IsReadFromThePieceThatAPipeDelivers) {
+    const Bytes bytes = encode(rough_ball());
+    ASSERT_GT(bytes.size(), 2 * tests::bso_block_bytes);
+    for (const std::size_t step : {1, 3, 4096, 1 << 20}) {
+        Pipe pipe{bytes, step};
+        const Result<BspOctree> back = decode(pipe.source());
+        ASSERT_TRUE(back) << step << ": " << back.error().describe();
+        EXPECT_EQ(encode(*back), bytes) << step;
+    }
+}
+
+TEST(BsoFormat, IsRefusedAsSoonAsABlockIsWrong) {
+    const Bytes bytes = encode(rough_ball());
+    constexpr std::size_t first = tests::bso_header_bytes + 4, second = first + tests::bso_block_bytes + 8;
+    const struct {
+        std::size_t flipped, refused_at, least_read, most_read;
+    } cases[] = {{30, 52, 56, 56},                                // the header
+                 {second + 500, second, second, second + 20000},  // within a block
+                 {second - 2, first, second, second},             // its checksum
+                 {second + 3, second, second + 4, second + 4}};   // its length
+    for (const auto& [flipped, refused_at, least_read, most_read] : cases) {
+        Pipe pipe{bytes, 1};
+        pipe.bytes[flipped] ^= 64;
+        const Result<BspOctree> back = decode(pipe.source());
+        ASSERT_FALSE(back) << flipped;
+        EXPECT_EQ(back.error().code, ErrorCode::bad_input) << flipped;
+        EXPECT_EQ(back.error().place.byte, refused_at) << flipped << ' ' << back.error().describe();
+        EXPECT_GE(pipe.delivered, least_read) << flipped;
+        EXPECT_LE(pipe.delivered, most_read) << flipped << ": what comes after is not waited for";
+    }
+}
+
+TEST(BsoFormat, NoticesBlocksThatAreMissingOrExchanged) {
+    const Bytes bytes = encode(rough_ball());
+    constexpr std::ptrdiff_t first = tests::bso_header_bytes + 4, block = tests::bso_block_bytes + 8;
+    Bytes missing = bytes;
+    missing.erase(missing.begin() + first, missing.begin() + first + block);
+    EXPECT_EQ(decode(missing).error().place.byte, static_cast<std::uint64_t>(first));
+    Bytes exchanged = bytes;
+    std::swap_ranges(exchanged.begin() + first, exchanged.begin() + first + block,
+                     exchanged.begin() + first + block);
+    EXPECT_EQ(decode(exchanged).error().place.byte, static_cast<std::uint64_t>(first));
+}
+
+TEST(BsoFormat, PassesOnWhatStopsTheSource) {
+    Pipe pipe{encode(rough_ball()), 100};
+    const Result<BspOctree> broken = decode([&](std::span<std::uint8_t> room) -> Result<std::size_t> {
+        if (pipe.delivered > 20000) return Error{ErrorCode::io, "the line is dead", {}};
+        return pipe.source()(room);
+    });
+    EXPECT_EQ(broken.error().code, ErrorCode::io);
+    std::atomic<bool> cancel{false};
+    Context context;
+    context.cancel = &cancel;
+    Pipe again{pipe.bytes, 100};
+    const Result<BspOctree> stopped = decode(
+        [&](std::span<std::uint8_t> room) {
+            cancel = again.delivered > 20000;
+            return again.source()(room);
+        },
+        context);
+    EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
+}
+
 TEST(BsoFormat, RefusesEveryTruncation) {
     const Bytes bytes =
         encode(*tests::octree_of(mesh::icosphere(3, 2)).subtract(tests::octree_of(mesh::cube(3))));
     for (std::size_t size = 0; size < bytes.size(); ++size) {
-        Bytes part(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
-        EXPECT_FALSE(decode(part)) << size;
-        if (size < 64) continue;
-        seal(part);
-        EXPECT_FALSE(decode(part)) << size << " with a good checksum";
+        const Result<BspOctree> part = decode(std::span(bytes).first(size));
+        ASSERT_FALSE(part) << size;
+        // What is no file at all does not begin like one; else the end is what is named.
+        EXPECT_EQ(part.error().place.byte, size < 8 ? 0 : size) << part.error().describe();
     }
-    Bytes more = bytes;
-    more.push_back(0);
-    seal(more);
-    EXPECT_FALSE(decode(more));
+    const tests::BsoParts whole = tests::bso_parts(bytes);
+    for (std::size_t size = 0; size < whole.bits.size(); ++size) {
+        tests::BsoParts part = whole;
+        part.bits.resize(size);
+        EXPECT_FALSE(decode(tests::bso_file(part))) << size << " with good checksums";
+    }
+    tests::BsoParts more = whole;
+    more.bits.push_back(0);
+    EXPECT_FALSE(decode(tests::bso_file(more)));
+    Bytes longer = bytes;
+    longer.push_back(0);
+    EXPECT_EQ(decode(longer).error().place.byte, bytes.size());
+}
+
+TEST(BsoFormat, RefusesOtherVersions) {
+    Bytes bytes = encode(tests::octree_of(mesh::cube()));
+    bytes[8] = 1;
+    const Result<BspOctree> old = decode(bytes);
+    ASSERT_FALSE(old);
+    EXPECT_EQ(old.error().code, ErrorCode::unsupported);
+    EXPECT_EQ(old.error().place.byte, 8U);
 }
 
 TEST(BsoFormat, NoticesEveryFlippedBit) {
@@ -80,22 +173,26 @@ TEST(BsoFormat, NoticesEveryFlippedBit) {
 }
 
 TEST(BsoFormat, SurvivesLies) {
-    // With a right checksum, flipped bits may give another tree, but never a crash, and what is refused says where.
-    const Bytes bytes =
-        encode(*tests::octree_of(mesh::icosphere(3, 2)).subtract(tests::octree_of(mesh::cube(3))));
+    // With right checksums, flipped bits may give another tree, but never a crash, and what is refused says where.
+    const tests::BsoParts truth = tests::bso_parts(
+        encode(*tests::octree_of(mesh::icosphere(3, 2)).subtract(tests::octree_of(mesh::cube(3)))));
     std::mt19937 random(1);
     int accepted = 0;
     for (int run = 0; run < 3000 * tests::effort(); ++run) {
-        Bytes lie = bytes;
+        tests::BsoParts lie = truth;
+        const std::size_t all = 8 * (lie.header.size() + lie.bits.size());
         for (int i = std::uniform_int_distribution<int>(1, 4)(random); i > 0; --i) {
-            const auto bit = std::uniform_int_distribution<std::size_t>(0, 8 * bytes.size() - 1)(random);
-            lie[bit / 8] = static_cast<std::uint8_t>(lie[bit / 8] ^ 1U << bit % 8);
+            const auto bit = std::uniform_int_distribution<std::size_t>(0, all - 1)(random);
+            const std::size_t byte = bit / 8;
+            std::uint8_t& at =
+                byte < lie.header.size() ? lie.header[byte] : lie.bits[byte - lie.header.size()];
+            at = static_cast<std::uint8_t>(at ^ 1U << bit % 8);
         }
-        seal(lie);
-        const Result<BspOctree> read = decode(lie);
+        const Bytes file = tests::bso_file(lie);
+        const Result<BspOctree> read = decode(file);
         accepted += read.has_value();
         if (!read)
-            EXPECT_NE(read.error().place.byte, Place::no_byte);
+            EXPECT_LE(read.error().place.byte, file.size());
         else
             static_cast<void>(to_mesh(*read));  // a mesh or an error
     }

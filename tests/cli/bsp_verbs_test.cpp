@@ -71,6 +71,25 @@ TEST_F(BspVerbs, GoWhereverSolidsDo) {
     EXPECT_NEAR(octavo("info part.poly --json").json()["result"]["volume"], 190, 1e-6);
 }
 
+TEST_F(BspVerbs, ReadTreesFromPipes) {
+    ASSERT_EQ(octavo("shape rock --detail 16 -o ball.ply").exit_code, 0);
+    ASSERT_EQ(octavo("bsp ball.ply -o ball.bso").exit_code, 0);
+    ASSERT_GT(read("ball.bso").size(), 40000U);
+    // In one go, in pieces with pauses, and cut short: what is missing is named by its byte.
+    const Ran piped = shell("$octavo bsp ball.ply -o - | $octavo stats - --json");
+    ASSERT_EQ(piped.exit_code, 0) << piped.err;
+    EXPECT_EQ(piped.json()["result"]["bytes"], read("ball.bso").size());
+    const Ran paused = shell(
+        "(head -c 5 ball.bso; sleep 0.1; head -c 20000 ball.bso | tail -c +6; sleep 0.1; tail -c +20001 "
+        "ball.bso) | "
+        "$octavo bsp - -o back.ply");
+    EXPECT_EQ(paused.exit_code, 0) << paused.err;
+    EXPECT_EQ(octavo("check back.ply").exit_code, 0);
+    const Ran cut = shell("head -c 20000 ball.bso | $octavo stats -");
+    EXPECT_EQ(cut.exit_code, 3);
+    EXPECT_NE(cut.err.find("20000"), std::string::npos) << cut.err;
+}
+
 TEST_F(BspVerbs, RefuseBadFilesWithTheirPlace) {
     ASSERT_EQ(octavo("shape cube -o cube.ply").exit_code, 0);
     write("poses.csv", "1,2,3\n1,2\n");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,14 +45,30 @@ void try_bytes(std::span<const std::uint8_t> bytes) {
     use(*solid);
 }
 
+/// Puts all checksums right, of a header and of the blocks whose lengths fit.
+void mend(std::vector<std::uint8_t>& file) {
+    constexpr std::size_t header = 52, most_block = 16384;
+    if (file.size() < header + 4) return;
+    store(&file[header], crc32_of(std::span(file).first(header)));
+    for (std::size_t at = header + 4; at + 8 < file.size();) {
+        auto length = load<std::uint32_t>(&file[at]);
+        const std::size_t left = file.size() - at - 8;
+        // A block that is too long or empty is made to end with the file, or the rest would never be read.
+        if (length == 0 || length > std::min(left, most_block)) {
+            length = static_cast<std::uint32_t>(std::min(left, most_block));
+            store(&file[at], length);
+        }
+        store(&file[at + 4 + length], crc32_of(std::span(file).subspan(at - 4, length + 8)));
+        at += length + 8;
+    }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try_bytes({data, size});
-    constexpr std::size_t checksum_at = 16;
-    if (size < checksum_at + 4) return 0;
     std::vector<std::uint8_t> mended(data, data + size);
-    store(&mended[checksum_at], crc32_around(mended, checksum_at));
+    mend(mended);
     try_bytes(mended);
     return 0;
 }
