@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
+#include <atomic>
 #include <map>
 #include <set>
 
+#include <octavo/base/parallel.hpp>
+#include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/about_edge.hpp>
 #include <octavo/boolean/assemble.hpp>
+#include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/mesh/disjoint_sets.hpp>
 
 namespace octavo::boolean {
@@ -21,73 +24,30 @@ int index_of(const mesh::Triangle& triangle, std::uint32_t vertex) {
     return triangle[0] == vertex ? 0 : triangle[1] == vertex ? 1 : 2;
 }
 
-/// Gives every fan at a special point a vertex of its own.
-class FanSplitter {
-  public:
-    FanSplitter(const Surface& surface, const Soup& soup, const PointTable& points,
-                const std::vector<char>& special)
-        : surface_(surface), soup_(soup), points_(points), special_(special), sets_(0) {}
-
-    /// Renames the corners of `triangles` from point ids to vertex numbers and appends the point of each vertex.
-    void run(std::vector<mesh::Triangle>& triangles, std::vector<PointId>& point_of_vertex) {
-        gather();
-        for (PointId point = 0; point < special_.size(); ++point)
-            if (begin_[point] != begin_[point + 1]) join_at(point);
-        std::vector<std::uint32_t> vertex_of_fan(corners_.size(), no_index),
-            vertex_of_point(special_.size(), no_index);
-        for (std::size_t i = 0; i < triangles.size(); ++i)
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const PointId point = surface_.triangles[i][k];
-                std::uint32_t& vertex =
-                    special_[point]
-                        ? vertex_of_fan[sets_.find(slot_of(point, 4 * static_cast<std::uint32_t>(i) + k))]
-                        : vertex_of_point[point];
-                if (vertex == no_index) {
-                    vertex = static_cast<std::uint32_t>(point_of_vertex.size());
-                    point_of_vertex.push_back(point);
-                    if (special_[point] && vertex_of_point[point] != no_index) ++duplicates;
-                    vertex_of_point[point] = vertex;
-                }
-                triangles[i][k] = vertex;
-            }
-    }
-
-    std::vector<Pair> pairs;  ///< at edges with more than two facets
-    std::size_t duplicates = 0;
-
-  private:
-    struct Side {
-        PointId other;
-        std::uint32_t slot;
-        bool leaves;
-    };
-
-    void gather() {
-        begin_.assign(special_.size() + 1, 0);
-        for (const mesh::Triangle& t : surface_.triangles)
-            for (const PointId point : t)
-                if (special_[point]) ++begin_[point + 1];
-        for (std::size_t point = 0; point < special_.size(); ++point) begin_[point + 1] += begin_[point];
-        corners_.resize(begin_.back());
-        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-        for (std::uint32_t i = 0; i < surface_.triangles.size(); ++i)
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const PointId point = surface_.triangles[i][k];
-                if (special_[point]) corners_[next[point]++] = 4 * i + k;
-            }
-        sets_ = mesh::DisjointSets(corners_.size());
-    }
+/// The corners at special points, as 4 · triangle + k, in one list: those of a point from `begin[point]` on, ascending.
+/// Their places in the list are called slots.
+struct SpecialCorners {
+    std::vector<std::uint32_t> begin, corners;
 
     std::uint32_t slot_of(PointId point, std::uint32_t corner) const {
-        const auto from = corners_.begin() + begin_[point], to = corners_.begin() + begin_[point + 1];
-        return static_cast<std::uint32_t>(std::lower_bound(from, to, corner) - corners_.begin());
+        const auto from = corners.begin() + begin[point], to = corners.begin() + begin[point + 1];
+        return static_cast<std::uint32_t>(std::lower_bound(from, to, corner) - corners.begin());
     }
+};
 
+/// Joins the corners at special points to fans.
+class FanJoiner {
+  public:
+    FanJoiner(const Surface& surface, const Soup& soup, const PointTable& points,
+              const SpecialCorners& special, mesh::DisjointSets& fans, std::vector<Pair>& pairs)
+        : surface_(surface), soup_(soup), points_(points), special_(special), fans_(fans), pairs_(pairs) {}
+
+    /// Unites slots of this point only.
     void join_at(PointId point) {
         sides_.clear();
-        for (std::uint32_t slot = begin_[point]; slot < begin_[point + 1]; ++slot) {
-            const mesh::Triangle& t = surface_.triangles[corners_[slot] / 4];
-            const std::uint32_t k = corners_[slot] % 4;
+        for (std::uint32_t slot = special_.begin[point]; slot < special_.begin[point + 1]; ++slot) {
+            const mesh::Triangle& t = surface_.triangles[special_.corners[slot] / 4];
+            const std::uint32_t k = special_.corners[slot] % 4;
             sides_.push_back({t[(k + 1) % 3], slot, true});
             sides_.push_back({t[(k + 2) % 3], slot, false});
         }
@@ -98,38 +58,165 @@ class FanSplitter {
             for (end = i + 1; end < sides_.size() && sides_[end].other == sides_[i].other;) ++end;
             OCTAVO_CHECK((end - i) % 2 == 0, "an edge of the result has an odd number of facets");
             if (end - i == 2)
-                sets_.unite(sides_[i].slot, sides_[i + 1].slot);
+                fans_.unite(sides_[i].slot, sides_[i + 1].slot);
             else
                 join_about(point, {sides_.data() + i, end - i});
         }
     }
 
+  private:
+    struct Side {
+        PointId other;
+        std::uint32_t slot;
+        bool leaves;
+    };
+
     void join_about(PointId point, std::span<const Side> sides) {
         const PointId low = std::min(point, sides[0].other), high = std::max(point, sides[0].other);
+        const auto triangle_of = [&](const Side& side) { return special_.corners[side.slot] / 4; };
         about_.clear();
         for (std::uint32_t i = 0; i < sides.size(); ++i)
-            about_.push_back(turned(surface_.plane(soup_, corners_[sides[i].slot] / 4),
-                                    sides[i].leaves == (point == low), i));
+            about_.push_back(
+                turned(surface_.plane(soup_, triangle_of(sides[i])), sides[i].leaves == (point == low), i));
         sort_about_edge(points_, low, high, about_);
         for (std::size_t i = 0; i < about_.size(); ++i) {
-            const std::size_t next = (i + 1) % about_.size();
-            const bool is_down = sides[about_[i].entry].leaves != (point == low);
+            const Side &side = sides[about_[i].entry], &next = sides[about_[(i + 1) % about_.size()].entry];
+            const bool is_down = side.leaves != (point == low);
             if (!is_down) continue;  // the solid is after a facet that runs down
-            sets_.unite(sides[about_[i].entry].slot, sides[about_[next].entry].slot);
-            if (point == low)
-                pairs.push_back({low, high, corners_[sides[about_[i].entry].slot] / 4,
-                                 corners_[sides[about_[next].entry].slot] / 4});
+            fans_.unite(side.slot, next.slot);
+            if (point == low) pairs_.push_back({low, high, triangle_of(side), triangle_of(next)});
         }
     }
 
     const Surface& surface_;
     const Soup& soup_;
     const PointTable& points_;
-    const std::vector<char>& special_;
-    mesh::DisjointSets sets_;                     ///< over slots of corners_
-    std::vector<std::uint32_t> begin_, corners_;  ///< 4 · triangle + k by special point, ascending
+    const SpecialCorners& special_;
+    mesh::DisjointSets& fans_;
+    std::vector<Pair>& pairs_;
     std::vector<Side> sides_;
     std::vector<AboutEdge> about_;
+};
+
+/// Gives every point of the surface a vertex, and every fan at a special point one of its own. Vertices are in the order
+/// of the points.
+class VertexNumbering {
+  public:
+    VertexNumbering(const Surface& surface, const std::vector<char>& special, const Context& context)
+        : surface_(surface), special_(special), context_(context), is_used_(special.size(), 0), fans_(0) {
+        gather();
+    }
+
+    void join_fans(const Soup& soup, const PointTable& points) {
+        std::vector<std::vector<Pair>> found((special_.size() + grain - 1) / grain);
+        parallel_chunks(context_, special_.size(), grain, [&](std::size_t begin, std::size_t end) {
+            FanJoiner joiner(surface_, soup, points, corners_, fans_, found[begin / grain]);
+            for (std::size_t point = begin; point < end; ++point)
+                if (corners_.begin[point] != corners_.begin[point + 1])
+                    joiner.join_at(static_cast<PointId>(point));
+        });
+        for (const std::vector<Pair>& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
+    }
+
+    /// Renames the corners of `mesh` and makes its vertices.
+    void run(const RoundedPoints& rounded, mesh::Mesh& mesh) {
+        const std::vector<std::size_t> offset =
+            chunk_offsets(context_, special_.size(), grain, [&](std::size_t begin, std::size_t end) {
+                std::size_t count = 0;
+                for (std::size_t point = begin; point < end; ++point) count += vertices_at(point);
+                return count;
+            });
+        mesh.vertices.resize(offset.back());
+        vertex_of_point_.resize(special_.size());
+        vertex_of_slot_.resize(corners_.corners.size());
+        parallel_chunks(context_, special_.size(), grain, [&](std::size_t begin, std::size_t end) {
+            auto vertex = static_cast<std::uint32_t>(offset[begin / grain]);
+            for (std::size_t point = begin; point < end; ++point) {
+                const std::uint32_t first = vertex;
+                if (special_[point]) {
+                    vertex = number_fans(point, vertex);
+                } else {
+                    vertex_of_point_[point] = vertex;
+                    vertex += is_used_[point] != 0;
+                }
+                for (std::uint32_t v = first; v < vertex; ++v)
+                    mesh.vertices[v] = rounded.world(static_cast<PointId>(point));
+            }
+        });
+        mesh.triangles.resize(surface_.triangles.size());
+        parallel_chunks(context_, mesh.triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                for (std::uint32_t k = 0; k < 3; ++k)
+                    mesh.triangles[i][k] =
+                        vertex_of(surface_.triangles[i][k], 4 * static_cast<std::uint32_t>(i) + k);
+        });
+    }
+
+    std::vector<Pair> pairs;  ///< at edges with more than two facets
+    std::size_t used_points() const {
+        return static_cast<std::size_t>(std::count(is_used_.begin(), is_used_.end(), 1));
+    }
+
+  private:
+    static constexpr std::size_t grain = 1 << 14;
+
+    /// Which points are used, and the corners at special ones. Threads mark points at the same time, all with the same.
+    void gather() {
+        struct Found {
+            PointId point;
+            std::uint32_t corner;
+        };
+        std::vector<std::vector<Found>> found((surface_.triangles.size() + grain - 1) / grain);
+        parallel_chunks(context_, surface_.triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                for (std::uint32_t k = 0; k < 3; ++k) {
+                    const PointId point = surface_.triangles[i][k];
+                    const std::atomic_ref<char> is_used(is_used_[point]);
+                    if (!is_used.load(std::memory_order_relaxed)) is_used.store(1, std::memory_order_relaxed);
+                    if (special_[point])
+                        found[begin / grain].push_back({point, 4 * static_cast<std::uint32_t>(i) + k});
+                }
+        });
+        corners_.begin.assign(special_.size() + 2, 0);
+        for (const std::vector<Found>& part : found)
+            for (const Found& each : part) ++corners_.begin[each.point + 2];
+        for (std::size_t point = 2; point < corners_.begin.size(); ++point)
+            corners_.begin[point] += corners_.begin[point - 1];
+        corners_.corners.resize(corners_.begin.back());
+        for (const std::vector<Found>& part : found)
+            for (const Found& each : part) corners_.corners[corners_.begin[each.point + 1]++] = each.corner;
+        fans_ = mesh::DisjointSets(corners_.corners.size());
+    }
+
+    /// How many vertices a point gets. Fans are told by their first slots.
+    std::size_t vertices_at(std::size_t point) {
+        if (!special_[point]) return is_used_[point] != 0;
+        std::size_t fans = 0;
+        for (std::uint32_t slot = corners_.begin[point]; slot < corners_.begin[point + 1]; ++slot)
+            fans += fans_.find(slot) == slot;
+        return fans;
+    }
+
+    /// Gives the fans at a special point the vertices from `next` on; returns the next one after them.
+    std::uint32_t number_fans(std::size_t point, std::uint32_t next) {
+        for (std::uint32_t slot = corners_.begin[point]; slot < corners_.begin[point + 1]; ++slot) {
+            const std::uint32_t first = fans_.find(slot);
+            vertex_of_slot_[slot] = first == slot ? next++ : vertex_of_slot_[first];
+        }
+        return next;
+    }
+
+    std::uint32_t vertex_of(PointId point, std::uint32_t corner) const {
+        return special_[point] ? vertex_of_slot_[corners_.slot_of(point, corner)] : vertex_of_point_[point];
+    }
+
+    const Surface& surface_;
+    const std::vector<char>& special_;
+    const Context& context_;
+    std::vector<char> is_used_;
+    SpecialCorners corners_;
+    mesh::DisjointSets fans_;  ///< over slots; those of different points are never united
+    UninitialisedVector<std::uint32_t> vertex_of_point_, vertex_of_slot_;
 };
 
 /// Where two pairs at one edge share both its vertices, one of them gets a vertex in the middle.
@@ -218,20 +305,20 @@ void append_dangling(const Surface& dangling, const Soup& soup, const RoundedPoi
 }
 
 Assembled assemble(const Surface& surface, const Soup& soup, const PointTable& points,
-                   const RoundedPoints& rounded, const std::vector<char>& special) {
+                   const RoundedPoints& rounded, const std::vector<char>& special, const Context& context) {
     Assembled result;
-    result.mesh.triangles.resize(surface.triangles.size());
-    std::vector<PointId> point_of_vertex;
-    FanSplitter splitter(surface, soup, points, special);
-    splitter.run(result.mesh.triangles, point_of_vertex);
-    result.duplicated_vertices = splitter.duplicates;
+    VertexNumbering numbering(surface, special, context);
+    numbering.join_fans(soup, points);
+    numbering.run(rounded, result.mesh);
+    if (context.cancelled()) return result;
+    result.duplicated_vertices = result.mesh.vertices.size() - numbering.used_points();
 
-    result.mesh.vertices.reserve(point_of_vertex.size());
-    for (const PointId point : point_of_vertex) result.mesh.vertices.push_back(rounded.world(point));
-    result.mesh.sources.reserve(surface.triangles.size());
-    for (const Surface::Facet& facet : surface.facets)
-        result.mesh.sources.push_back(soup.source(facet.soup_facet));
-    result.split_edges = separate_pairs(splitter.pairs, surface, result.mesh);
+    result.mesh.sources.resize(surface.facets.size());
+    parallel_chunks(context, surface.facets.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            result.mesh.sources[i] = soup.source(surface.facets[i].soup_facet);
+    });
+    result.split_edges = separate_pairs(numbering.pairs, surface, result.mesh);
     return result;
 }
 

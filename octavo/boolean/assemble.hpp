@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <octavo/base/context.hpp>
 #include <octavo/boolean/rounded_points.hpp>
 #include <octavo/boolean/surface.hpp>
 #include <octavo/mesh/mesh.hpp>
@@ -30,7 +31,8 @@ struct Assembled {
 void append_dangling(const Surface& dangling, const Soup& soup, const RoundedPoints& rounded,
                      Assembled& result);
 
+/// Vertices are in the order of the points that they stand for. Cancellation leaves the mesh incomplete.
 Assembled assemble(const Surface& surface, const Soup& soup, const PointTable& points,
-                   const RoundedPoints& rounded, const std::vector<char>& special);
+                   const RoundedPoints& rounded, const std::vector<char>& special, const Context& context);
 
 }  // namespace octavo::boolean

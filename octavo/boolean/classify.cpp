@@ -109,13 +109,15 @@ class Classifier {
 
         transition_.resize(patches_.count);
         seed_.assign(patches_.count, no_index);
-        for (std::uint32_t triangle = 0; triangle < complex_.size(); ++triangle) {
-            const std::uint32_t patch = patches_.of_triangle[triangle];
-            if (patch == no_index) continue;
-            transition_[patch] = complex_.transition(triangle);
-            // Whole facets are numbered before pieces, so a patch that has one starts from it.
-            if (seed_[patch] == no_index && (!complex_.is_piece(triangle) || lies_at_corner(triangle)))
-                seed_[patch] = triangle;
+        for (std::uint32_t patch = 0; patch < patches_.count; ++patch) {
+            const std::uint32_t first = patches_.first[patch];
+            transition_[patch] = complex_.transition(first);
+            if (!complex_.is_piece(first)) seed_[patch] = first;
+        }
+        // Whole facets are numbered before pieces, so a patch that has one starts from it.
+        for (std::uint32_t piece = complex_.facets(); piece < complex_.size(); ++piece) {
+            std::uint32_t& seed = seed_[patches_.of_triangle[piece]];
+            if (seed == no_index && lies_at_corner(piece)) seed = piece;
         }
     }
 

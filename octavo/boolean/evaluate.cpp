@@ -173,18 +173,24 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     report.components = classification->components;
 
     phases.begin("assemble", 0.85);
-    Surface surface = select(complex, *patches, *classification);
-    if (options.simplify == Simplify::coplanar) surface = merge_coplanar(surface, *soup, points, context);
-    RoundedPoints rounded(*soup, points);
+    Surface surface = select(complex, *patches, *classification, context);
+    if (context.cancelled()) return Context::cancelled_error();
+    if (options.simplify == Simplify::coplanar)
+        surface = merge_coplanar(std::move(surface), *soup, points, context);
+    RoundedPoints rounded(*soup, points, context);
+    if (context.cancelled()) return Context::cancelled_error();
     RoundingFaults faults = mend_rounding(surface, *soup, contacts.near, rounded, context);
     if (context.cancelled()) return Context::cancelled_error();
     Assembled assembled =
-        assemble(surface, *soup, points, rounded, special_points(surface, *patches, points.size()));
+        assemble(surface, *soup, points, rounded, special_points(surface, *patches), context);
+    if (context.cancelled()) return Context::cancelled_error();
     if (report.flush.tolerance > 0) drop_thin(assembled, faults, report.flush);
     if (options.dangling == Dangling::kept) {
-        Surface dangling = select_dangling(complex, *patches, *classification);
+        Surface dangling = select_dangling(complex, *patches, *classification, context);
+        if (context.cancelled()) return Context::cancelled_error();
         if (options.simplify == Simplify::coplanar)
-            dangling = merge_coplanar(dangling, *soup, points, context);
+            dangling = merge_coplanar(std::move(dangling), *soup, points, context);
+        if (context.cancelled()) return Context::cancelled_error();
         append_dangling(dangling, *soup, rounded, assembled);
         report.dangling_facets = dangling.triangles.size();
         report.closed = dangling.triangles.empty();

@@ -5,6 +5,7 @@
 #include <map>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/boolean/coincident_facets.hpp>
 #include <octavo/boolean/facet_tree.hpp>
 #include <octavo/boolean/flush.hpp>
 #include <octavo/boolean/flush_sheet.hpp>
@@ -32,7 +33,7 @@ void note_removed(const Soup& soup, std::uint32_t facet, FlushReport& report) {
 
 /// Puts the triangles in place of the facets that have a list; those without area are dropped.
 void replace_facets(std::map<std::uint32_t, std::vector<mesh::Triangle>> replaced, Soup& soup,
-                    FlushReport& report) {
+                    FlushReport& report, const Context& context) {
     std::vector<mesh::Triangle> facets;
     std::vector<TransitionId> transition;
     std::vector<std::uint32_t> origin;
@@ -57,12 +58,12 @@ void replace_facets(std::map<std::uint32_t, std::vector<mesh::Triangle>> replace
     }
     soup.facets.swap(facets), soup.transition.swap(transition), soup.origin.swap(origin);
     const std::size_t before = soup.facets.size();
-    merge_coincident(soup);
+    merge_coincident(soup, context);
     report.removed_facets += before - soup.facets.size();
 }
 
 /// Vertices become the first one near them, so that those that are left are farther apart than the tolerance.
-void merge_vertices(Soup& soup, const NearContacts& near, FlushReport& report) {
+void merge_vertices(Soup& soup, const NearContacts& near, FlushReport& report, const Context& context) {
     std::vector<std::uint32_t> merged(soup.points.size(), no_index);
     for (std::size_t i = 0; i < near.at_vertex.size(); ++i) {
         const auto [vertex, other] = near.at_vertex[i];
@@ -76,7 +77,7 @@ void merge_vertices(Soup& soup, const NearContacts& near, FlushReport& report) {
     for (mesh::Triangle& facet : soup.facets)
         for (std::uint32_t& corner : facet)
             if (merged[corner] != no_index) corner = merged[corner];
-    replace_facets({}, soup, report);
+    replace_facets({}, soup, report, context);
 }
 
 /// Points that were added, by place.
@@ -319,7 +320,7 @@ class Bending {
                 replaced[sheets[i][k].facet] = std::move(triangles[i][k]);
             }
         }
-        replace_facets(std::move(replaced), soup_, report_);
+        replace_facets(std::move(replaced), soup_, report_, context);
     }
 
     /// Together if possible, else one by one, else by border alone. The number of facets left to themselves.
@@ -366,7 +367,7 @@ FlushReport make_flush(Soup& soup, double tolerance, const Context& context) {
         if (report.settled) break;
         ++report.rounds;
         if (!near.at_vertex.empty())
-            merge_vertices(soup, near, report);
+            merge_vertices(soup, near, report, context);
         else
             Bending(soup, near, tolerance, report).run(context);
     }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <octavo/base/parallel.hpp>
+#include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/near_facets.hpp>
 
 namespace octavo::boolean {
@@ -24,8 +26,8 @@ double distance(Vec3 point, Vec3 from, Vec3 to) {
 /// Collects pairs of facets.
 class PairSearch {
   public:
-    PairSearch(const Surface& surface, const Soup& soup, const RoundedPoints& rounded)
-        : surface_(surface), soup_(soup), rounded_(rounded), merged_(surface.merged) {
+    PairSearch(const Surface& surface, const Soup& soup, const RoundedPoints& rounded, const Context& context)
+        : surface_(surface), soup_(soup), rounded_(rounded), context_(context), merged_(surface.merged) {
         const double units = 4 * placing_bound(soup.lattice) * exact::universe_side;
         tight_distance_ = units / contact_reach(soup.lattice) + 1;
         std::sort(merged_.begin(), merged_.end());
@@ -33,7 +35,7 @@ class PairSearch {
     }
 
     std::vector<Pair> run(std::span<const Pair> near) {
-        if (!any_moved_) return {};
+        if (!any_moved_ || context_.cancelled()) return {};
         for (const auto& [first, second] : near) add(first, second);
         for (std::uint32_t facet = 0; facet < moved_.size(); ++facet)
             if (moved_[facet] && next_[first_of_[facet]] != no_index) pairs_.push_back({facet, facet});
@@ -51,6 +53,8 @@ class PairSearch {
     std::span<const std::uint32_t> next() const { return next_; }
 
   private:
+    static constexpr std::size_t grain = 1 << 15;
+
     /// A facet of the soup at a corner; its triangles may go by the names of several facets.
     struct Incident {
         std::uint32_t facet;
@@ -60,14 +64,23 @@ class PairSearch {
 
     /// The triangles of each facet, linked.
     void chain() {
-        first_of_.assign(soup_.facets.size(), no_index);
-        next_.assign(surface_.triangles.size(), no_index);
+        first_of_.resize(soup_.facets.size());
+        next_.resize(surface_.triangles.size());
         moved_.assign(soup_.facets.size(), 0);
-        for (std::uint32_t i = static_cast<std::uint32_t>(surface_.triangles.size()); i-- > 0;) {
+        parallel_chunks(context_, first_of_.size(), grain, [&](std::size_t begin, std::size_t end) {
+            std::fill(first_of_.data() + begin, first_of_.data() + end, no_index);
+        });
+        const std::size_t whole = surface_.first_piece();
+        parallel_chunks(context_, whole, grain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                first_of_[surface_.facets[i].soup_facet] = static_cast<std::uint32_t>(i);
+                next_[i] = no_index;
+            }
+        });
+        for (auto i = static_cast<std::uint32_t>(surface_.triangles.size()); i-- > whole;) {
             const std::uint32_t facet = surface_.facets[i].soup_facet;
             next_[i] = first_of_[facet];
             first_of_[facet] = i;
-            if (!surface_.facets[i].is_piece) continue;
             for (const PointId corner : surface_.triangles[i])
                 if (rounded_.is_moved(corner)) moved_[facet] = 1, any_moved_ = true;
         }
@@ -92,14 +105,12 @@ class PairSearch {
 
     /// The facets about each corner of a facet with moved points.
     void gather() {
-        std::vector<std::uint32_t> number(soup_.points.size(), no_index);
-        std::vector<char> has_moved(soup_.facets.size(), 0), exists(soup_.facets.size(), 0);
-        for (std::uint32_t facet = 0; facet < soup_.facets.size(); ++facet)
-            if (first_of_[facet] != no_index) exists[facet] = 1, has_moved[facet] = moved_[facet];
+        std::vector<char> has_moved = moved_, has_parts(soup_.facets.size(), 0);
         for (const auto& [facet, name] : merged_) {
-            exists[facet] = 1;
+            has_parts[facet] = 1;
             has_moved[facet] = static_cast<char>(has_moved[facet] | moved_[name]);
         }
+        std::vector<std::uint32_t> number(soup_.points.size(), no_index);
         std::uint32_t corners = 0;
         for (std::uint32_t facet = 0; facet < soup_.facets.size(); ++facet)
             if (has_moved[facet])
@@ -109,21 +120,26 @@ class PairSearch {
             std::uint32_t corner;
             Incident incident;
         };
-        std::vector<Found> found;
-        begin_.assign(corners + 1, 0);
-        for (std::uint32_t facet = 0; facet < soup_.facets.size(); ++facet) {
-            if (!exists[facet]) continue;
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t corner = number[soup_.facets[facet][k]];
-                if (corner == no_index) continue;
-                found.push_back({corner, {facet, k, has_moved[facet] != 0}});
-                ++begin_[corner + 1];
+        std::vector<std::vector<Found>> found(soup_.facets.size() / grain + 1);
+        parallel_chunks(context_, soup_.facets.size(), grain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (first_of_[i] == no_index && !has_parts[i]) continue;
+                for (std::uint32_t k = 0; k < 3; ++k) {
+                    const std::uint32_t corner = number[soup_.facets[i][k]];
+                    if (corner == no_index) continue;
+                    const auto facet = static_cast<std::uint32_t>(i);
+                    found[begin / grain].push_back({corner, {facet, k, has_moved[i] != 0}});
+                }
             }
-        }
+        });
+        begin_.assign(corners + 1, 0);
+        for (const std::vector<Found>& part : found)
+            for (const Found& each : part) ++begin_[each.corner + 1];
         for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-        incident_.resize(found.size());
+        incident_.resize(begin_.back());
         std::vector<std::uint32_t> place(begin_.begin(), begin_.end() - 1);
-        for (const Found& each : found) incident_[place[each.corner]++] = each.incident;
+        for (const std::vector<Found>& part : found)
+            for (const Found& each : part) incident_[place[each.corner]++] = each.incident;
     }
 
     void about_corner(std::span<const Incident> facets) {
@@ -171,12 +187,14 @@ class PairSearch {
     const Surface& surface_;
     const Soup& soup_;
     const RoundedPoints& rounded_;
+    const Context& context_;
     std::vector<Pair> merged_;
     double tight_distance_ = 0;
     bool any_moved_ = false;
-    std::vector<std::uint32_t> first_of_, next_;  ///< triangle of a facet, and the next one after a triangle
-    std::vector<char> moved_;                     ///< per facet: its triangles have moved corners
-    std::vector<std::uint32_t> begin_;            ///< into `incident_`, per corner
+    UninitialisedVector<std::uint32_t> first_of_,
+        next_;                          ///< triangle of a facet, and the next one after a triangle
+    std::vector<char> moved_;           ///< per facet: its triangles have moved corners
+    std::vector<std::uint32_t> begin_;  ///< into `incident_`, per corner
     std::vector<Incident> incident_;
     std::vector<Pair> pairs_;
 };
@@ -191,7 +209,7 @@ constexpr std::uint32_t large_group = 64;
 
 NearFacets::NearFacets(const Surface& surface, const Soup& soup, std::span<const Pair> near,
                        const RoundedPoints& rounded, const Context& context) {
-    PairSearch search(surface, soup, rounded);
+    PairSearch search(surface, soup, rounded, context);
     pairs_ = search.run(near);
     fill_groups(surface, rounded, search.first_of(), search.next(), context);
 }

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/about_edge.hpp>
+#include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/concurrent_sets.hpp>
 #include <octavo/boolean/lanes.hpp>
 #include <octavo/boolean/patches.hpp>
@@ -17,36 +19,52 @@ namespace {
 
 /// For each point, the corners at it, as 4 · triangle + k.
 struct CornerTable {
-    std::vector<std::uint32_t> begin, corners;
+    std::vector<std::uint32_t> begin;
+    UninitialisedVector<std::uint32_t> corners;
 };
 
-/// Threads share the work by ranges of points: each looks at all triangles, which are read fast and in order, and
-/// writes what belongs to its range.
+/// Threads share the work by ranges of points. Each looks at the blocks of triangles that have corners in its range,
+/// which are few where meshes are numbered in some order.
 CornerTable corners_by_point(const Complex& complex, std::size_t points, const Context& context) {
-    CornerTable table;
-    table.begin.assign(points + 1, 0);
-    const std::size_t range = context.threads == 1 ? points + 1 : points / 4 + 1;
-    const auto for_each_corner = [&](std::size_t first, std::size_t last, const auto& visit) {
-        for (std::uint32_t triangle = 0; triangle < complex.size(); ++triangle) {
+    constexpr std::uint32_t block = 1024;
+    const std::size_t ranges = context.threads == 1 ? 1 : 8, range = points / ranges + 1;
+    std::vector<std::uint8_t> ranges_of(complex.size() / block + 1, ranges == 1);
+    const auto for_each_corner_of = [&](std::size_t number, const auto& visit) {
+        const auto begin = static_cast<std::uint32_t>(number * block);
+        for (std::uint32_t triangle = begin; triangle < std::min(begin + block, complex.size()); ++triangle) {
             if (!complex.exists(triangle)) continue;
             const mesh::Triangle& corners = complex.corners(triangle);
-            for (std::uint32_t k = 0; k < 3; ++k)
-                if (corners[k] >= first && corners[k] < last) visit(corners[k], 4 * triangle + k);
+            for (std::uint32_t k = 0; k < 3; ++k) visit(corners[k], 4 * triangle + k);
         }
     };
+    if (ranges > 1)
+        parallel_chunks(context, ranges_of.size(), 64, [&](std::size_t first, std::size_t last) {
+            for (std::size_t number = first; number < last; ++number)
+                for_each_corner_of(number, [&](PointId point, std::uint32_t) {
+                    ranges_of[number] = static_cast<std::uint8_t>(ranges_of[number] | 1u << point / range);
+                });
+        });
+    const auto for_each_corner = [&](std::size_t first, std::size_t last, const auto& visit) {
+        for (std::size_t number = 0; number < ranges_of.size(); ++number)
+            if (ranges_of[number] >> first / range & 1)
+                for_each_corner_of(number, [&](PointId point, std::uint32_t corner) {
+                    if (point >= first && point < last) visit(point, corner);
+                });
+    };
+    // The corners of a point are counted two places on, and then its end is counted up from where it begins.
+    CornerTable table;
+    table.begin.assign(points + 2, 0);
     parallel_chunks(context, points, range, [&](std::size_t first, std::size_t last) {
-        for_each_corner(first, last, [&](PointId point, std::uint32_t) { ++table.begin[point]; });
+        for_each_corner(first, last, [&](PointId point, std::uint32_t) { ++table.begin[point + 2]; });
     });
-    std::uint32_t sum = 0;
-    for (std::uint32_t& begin : table.begin) begin = std::exchange(sum, sum + begin);
-    table.corners.resize(sum);
+    for (std::size_t point = 2; point < table.begin.size(); ++point)
+        table.begin[point] += table.begin[point - 1];
+    table.corners.resize(table.begin.back());
     parallel_chunks(context, points, range, [&](std::size_t first, std::size_t last) {
         for_each_corner(first, last, [&](PointId point, std::uint32_t corner) {
-            table.corners[table.begin[point]++] = corner;
+            table.corners[table.begin[point + 1]++] = corner;
         });
     });
-    for (std::size_t point = points; point > 0; --point) table.begin[point] = table.begin[point - 1];
-    table.begin[0] = 0;
     return table;
 }
 
@@ -119,47 +137,29 @@ struct Spoke {
     bool leaves;  ///< the triangle runs from the vertex to `other`
 };
 
-class PatchSearch {
+/// What is at the edges of a range of points.
+struct FoundEdges {
+    std::vector<Junction> junctions;
+    std::vector<std::uint32_t> around;
+    std::vector<std::uint32_t> open;  ///< facets at edges where winding changes do not cancel
+};
+
+/// Joins across edges that change nothing and records the others.
+class EdgeSearch {
   public:
-    PatchSearch(const Complex& complex, const PointTable& points)
-        : complex_(complex), points_(points), sets_(complex.size()) {}
+    EdgeSearch(const Complex& complex, const std::vector<char>& is_plain, ConcurrentSets& sets,
+               FoundEdges& found)
+        : complex_(complex), is_plain_(is_plain), sets_(sets), found_(found) {}
 
-    Result<Patches> run(const Context& context) {
-        const CornerTable table = corners_by_point(complex_, points_.size(), context);
-        patches_.is_plain.assign(points_.size(), 0);
-        parallel_chunks(context, points_.size(), 1 << 13, [&](std::size_t first, std::size_t last) {
-            FanTest test(complex_);
-            for (std::size_t point = first; point < last; ++point) {
-                const std::span<const std::uint32_t> corners{table.corners.data() + table.begin[point],
-                                                             table.begin[point + 1] - table.begin[point]};
-                if (!test.is_plain(corners)) continue;
-                patches_.is_plain[point] = 1;
-                for (const std::uint32_t corner : corners.subspan(1)) sets_.unite(corners[0] / 4, corner / 4);
-            }
-        });
-        if (context.cancelled()) return Context::cancelled_error();
-        for (PointId point = 0; point < points_.size(); ++point) {
-            const std::uint32_t begin = table.begin[point], end = table.begin[point + 1];
-            if (begin != end && !patches_.is_plain[point])
-                visit_edges(point, {table.corners.data() + begin, end - begin});
-        }
-        if (!open_.empty()) return open_error();
-        number_patches();
-        for (Junction& junction : patches_.junctions) sort_around(junction);
-        return std::move(patches_);
-    }
-
-  private:
-    /// Joins across or records the edges from `point` to higher points that are not plain either; fans have
-    /// joined all others.
+    /// The edges from `point` to higher points that are not plain either; fans have joined all others.
     void visit_edges(PointId point, std::span<const std::uint32_t> corners) {
         spokes_.clear();
         for (const std::uint32_t corner : corners) {
             const mesh::Triangle& t = complex_.corners(corner / 4);
             const std::uint32_t k = corner % 4;
             const PointId next = t[(k + 1) % 3], last = t[(k + 2) % 3];
-            if (next > point && !patches_.is_plain[next]) spokes_.push_back({next, corner / 4, true});
-            if (last > point && !patches_.is_plain[last]) spokes_.push_back({last, corner / 4, false});
+            if (next > point && !is_plain_[next]) spokes_.push_back({next, corner / 4, true});
+            if (last > point && !is_plain_[last]) spokes_.push_back({last, corner / 4, false});
         }
         std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
             return a.other != b.other ? a.other < b.other : a.triangle < b.triangle;
@@ -170,6 +170,7 @@ class PatchSearch {
         }
     }
 
+  private:
     void visit_edge(PointId low, std::span<const Spoke> sides) {
         if (sides.size() == 2 && sides[0].leaves != sides[1].leaves &&
             complex_.transition(sides[0].triangle) == complex_.transition(sides[1].triangle)) {
@@ -180,13 +181,84 @@ class PatchSearch {
         for (const Spoke& side : sides)
             sum_.add(complex_.transitions.of(complex_.transition(side.triangle)), side.leaves ? 1 : -1);
         if (!sum_.normalised().empty()) {
-            for (const Spoke& side : sides) open_.push_back(complex_.facet(side.triangle));
+            for (const Spoke& side : sides) found_.open.push_back(complex_.facet(side.triangle));
             return;
         }
-        Junction junction{low, sides[0].other, static_cast<std::uint32_t>(patches_.around.size()), 0};
-        for (const Spoke& side : sides) patches_.around.push_back(2 * side.triangle + (side.leaves ? 1 : 0));
-        junction.end = static_cast<std::uint32_t>(patches_.around.size());
-        patches_.junctions.push_back(junction);
+        const auto begin = static_cast<std::uint32_t>(found_.around.size());
+        for (const Spoke& side : sides) found_.around.push_back(2 * side.triangle + (side.leaves ? 1 : 0));
+        found_.junctions.push_back(
+            {low, sides[0].other, begin, static_cast<std::uint32_t>(found_.around.size())});
+    }
+
+    const Complex& complex_;
+    const std::vector<char>& is_plain_;
+    ConcurrentSets& sets_;
+    FoundEdges& found_;
+    TransitionSum sum_;
+    std::vector<Spoke> spokes_;
+};
+
+class PatchSearch {
+  public:
+    PatchSearch(const Complex& complex, const PointTable& points, const Context& context)
+        : complex_(complex), points_(points), context_(context), sets_(complex.size()) {}
+
+    Result<Patches> run() {
+        const CornerTable table = corners_by_point(complex_, points_.size(), context_);
+        join_fans(table);
+        if (context_.cancelled()) return Context::cancelled_error();
+        find_junctions(table);
+        if (context_.cancelled()) return Context::cancelled_error();
+        if (!open_.empty()) return open_error();
+        number_patches();
+        patches_.same_region.resize(patches_.around.size());
+        parallel_chunks(context_, patches_.junctions.size(), grain, [&](std::size_t first, std::size_t last) {
+            std::vector<AboutEdge> turned;
+            for (std::size_t i = first; i < last; ++i) sort_around(patches_.junctions[i], turned);
+        });
+        if (context_.cancelled()) return Context::cancelled_error();
+        return std::move(patches_);
+    }
+
+  private:
+    static constexpr std::size_t grain = 1 << 13;
+
+    static std::span<const std::uint32_t> corners_at(const CornerTable& table, std::size_t point) {
+        return {table.corners.data() + table.begin[point], table.begin[point + 1] - table.begin[point]};
+    }
+
+    void join_fans(const CornerTable& table) {
+        patches_.is_plain.assign(points_.size(), 0);
+        parallel_chunks(context_, points_.size(), grain, [&](std::size_t first, std::size_t last) {
+            FanTest test(complex_);
+            for (std::size_t point = first; point < last; ++point) {
+                const std::span<const std::uint32_t> corners = corners_at(table, point);
+                if (!test.is_plain(corners)) continue;
+                patches_.is_plain[point] = 1;
+                for (const std::uint32_t corner : corners.subspan(1)) sets_.unite(corners[0] / 4, corner / 4);
+            }
+        });
+    }
+
+    /// Ranges of points find for themselves, and what they have found is put together in their order.
+    void find_junctions(const CornerTable& table) {
+        std::vector<FoundEdges> found((points_.size() + grain - 1) / grain);
+        parallel_chunks(context_, points_.size(), grain, [&](std::size_t first, std::size_t last) {
+            EdgeSearch search(complex_, patches_.is_plain, sets_, found[first / grain]);
+            for (std::size_t point = first; point < last; ++point)
+                if (!patches_.is_plain[point])
+                    search.visit_edges(static_cast<PointId>(point), corners_at(table, point));
+        });
+        for (FoundEdges& part : found) {
+            const auto begin = static_cast<std::uint32_t>(patches_.around.size());
+            for (Junction junction : part.junctions) {
+                junction.begin += begin, junction.end += begin;
+                patches_.junctions.push_back(junction);
+            }
+            patches_.around.insert(patches_.around.end(), part.around.begin(), part.around.end());
+            open_.insert(open_.end(), part.open.begin(), part.open.end());
+            part = {};
+        }
     }
 
     Error open_error() {
@@ -207,13 +279,40 @@ class PatchSearch {
         return error;
     }
 
+    /// Patches are numbered by their first triangles, which stand for their sets.
     void number_patches() {
-        patches_.of_triangle.assign(complex_.size(), no_index);
-        for (std::uint32_t triangle = 0; triangle < complex_.size(); ++triangle) {
-            if (!complex_.exists(triangle)) continue;
-            const std::uint32_t root = sets_.find(triangle);
-            patches_.of_triangle[triangle] = root == triangle ? patches_.count++ : patches_.of_triangle[root];
-        }
+        const auto is_first = [&](std::size_t triangle) {
+            const auto t = static_cast<std::uint32_t>(triangle);
+            return complex_.exists(t) && sets_.find(t) == t;
+        };
+        constexpr std::size_t triangles = 1 << 16;
+        const std::vector<std::size_t> offset =
+            chunk_offsets(context_, complex_.size(), triangles, [&](std::size_t first, std::size_t last) {
+                std::size_t count = 0;
+                for (std::size_t t = first; t < last; ++t) count += is_first(t);
+                return count;
+            });
+        patches_.count = static_cast<std::uint32_t>(offset.back());
+        patches_.first.resize(patches_.count);
+        patches_.of_triangle.resize(complex_.size());
+        parallel_chunks(context_, complex_.size(), triangles, [&](std::size_t first, std::size_t last) {
+            auto patch = static_cast<std::uint32_t>(offset[first / triangles]);
+            for (std::size_t t = first; t < last; ++t) {
+                if (!is_first(t)) continue;
+                patches_.first[patch] = static_cast<std::uint32_t>(t);
+                patches_.of_triangle[t] = patch++;
+            }
+        });
+        parallel_chunks(context_, complex_.size(), triangles, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                const auto t = static_cast<std::uint32_t>(i);
+                const std::uint32_t root = sets_.find(t);
+                if (!complex_.exists(t))
+                    patches_.of_triangle[t] = no_index;
+                else if (root != t)
+                    patches_.of_triangle[t] = patches_.of_triangle[root];
+            }
+        });
     }
 
     exact::Plane plane_of(std::uint32_t triangle) const {
@@ -223,38 +322,35 @@ class PatchSearch {
     }
 
     /// Sorts the triangles about the edge and equates the regions between neighbours.
-    void sort_around(const Junction& junction) {
-        turned_.clear();
+    void sort_around(const Junction& junction, std::vector<AboutEdge>& about) {
+        about.clear();
         for (std::uint32_t at = junction.begin; at < junction.end; ++at) {
             const std::uint32_t entry = patches_.around[at];
-            turned_.push_back(turned(plane_of(entry / 2), entry % 2 != 0, entry));
+            about.push_back(turned(plane_of(entry / 2), entry % 2 != 0, entry));
         }
-        sort_about_edge(points_, junction.low, junction.high, turned_);
-        for (std::size_t k = 0; k < turned_.size(); ++k)
-            patches_.around[junction.begin + k] = turned_[k].entry;
-        for (std::size_t k = 0; k < turned_.size(); ++k) {
-            const std::uint32_t entry = turned_[k].entry, next = turned_[(k + 1) % turned_.size()].entry;
+        sort_about_edge(points_, junction.low, junction.high, about);
+        for (std::size_t k = 0; k < about.size(); ++k) {
+            const std::uint32_t entry = about[k].entry, next = about[(k + 1) % about.size()].entry;
+            patches_.around[junction.begin + k] = entry;
             // A triangle that runs upward has its front after it, one that runs downward its back.
             const PatchSide after = 2 * patches_.of_triangle[entry / 2] + (entry % 2 ? 0 : 1);
             const PatchSide before = 2 * patches_.of_triangle[next / 2] + (next % 2 ? 1 : 0);
-            patches_.same_region.push_back({after, before});
+            patches_.same_region[junction.begin + k] = {after, before};
         }
     }
 
     const Complex& complex_;
     const PointTable& points_;
+    const Context& context_;
     ConcurrentSets sets_;
     Patches patches_;
-    TransitionSum sum_;
-    std::vector<Spoke> spokes_;
-    std::vector<AboutEdge> turned_;
     std::vector<std::uint32_t> open_;
 };
 
 }  // namespace
 
 Result<Patches> find_patches(const Complex& complex, const PointTable& points, const Context& context) {
-    return PatchSearch(complex, points).run(context);
+    return PatchSearch(complex, points, context).run();
 }
 
 }  // namespace octavo::boolean

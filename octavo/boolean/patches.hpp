@@ -35,6 +35,7 @@ struct Junction {
 struct Patches {
     std::uint32_t count = 0;
     std::vector<std::uint32_t> of_triangle;  ///< no_index for facets that pieces stand for
+    std::vector<std::uint32_t> first;        ///< per patch, its first triangle; ascending
     std::vector<char> is_plain;              ///< per point
     std::vector<Junction> junctions;
     /// 2 · triangle + (it runs from low to high); counter-clockwise seen from the high end.

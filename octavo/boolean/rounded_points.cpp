@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include <octavo/base/parallel.hpp>
 #include <octavo/boolean/rounded_points.hpp>
 #include <octavo/exact/bit_budget.hpp>
 #include <octavo/exact/wide_int.hpp>
@@ -35,23 +36,32 @@ double rounding_at(int lacking) {
 
 }  // namespace
 
-RoundedPoints::RoundedPoints(const Soup& soup, const PointTable& points)
+RoundedPoints::RoundedPoints(const Soup& soup, const PointTable& points, const Context& context)
     : vertices_(soup.points),
       lattice_(soup.lattice),
       fixed_(points.size() - soup.points.size()),
       moved_(fixed_.size(), 0) {
-    for (std::size_t i = 0; i < fixed_.size(); ++i) {
-        const auto id = static_cast<PointId>(vertices_.size() + i);
-        if (const exact::Point* const at = points.lattice_point(id))
-            fixed_[i] = {fixed(at->x), fixed(at->y), fixed(at->z)};
-        else
-            points.with(id, [&](const auto& point) { round(exact::homogeneous(point), points.cell(id), i); });
-    }
-    largest_rounding_ *= lattice_.unit();
+    constexpr std::size_t grain = 1 << 12;
+    std::vector<double> largest(fixed_.size() / grain + 1, 0);
+    parallel_chunks(context, fixed_.size(), grain, [&](std::size_t begin, std::size_t end) {
+        double& here = largest[begin / grain];
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto id = static_cast<PointId>(vertices_.size() + i);
+            if (const exact::Point* const at = points.lattice_point(id)) {
+                fixed_[i] = {fixed(at->x), fixed(at->y), fixed(at->z)};
+                continue;
+            }
+            points.with(id, [&](const auto& point) {
+                here = std::max(here, round(exact::homogeneous(point), points.cell(id), i));
+            });
+        }
+    });
+    largest_rounding_ = *std::max_element(largest.begin(), largest.end()) * lattice_.unit();
 }
 
 template <class P>
-void RoundedPoints::round(const P& point, exact::Point cell, std::size_t number) {
+double RoundedPoints::round(const P& point, exact::Point cell, std::size_t number) {
+    double farthest = 0;
     const double weight = to_double(point.weight());
     for (int axis = 0; axis < 3; ++axis) {
         const auto index = static_cast<std::size_t>(axis);
@@ -71,8 +81,9 @@ void RoundedPoints::round(const P& point, exact::Point cell, std::size_t number)
         };
         if (static_cast<double>(steps) == scaled && is_exact()) continue;
         moved_[number] = 1;
-        largest_rounding_ = std::max(largest_rounding_, rounding_at(lacking));
+        farthest = std::max(farthest, rounding_at(lacking));
     }
+    return farthest;
 }
 
 Vec3 RoundedPoints::world(PointId id) const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <octavo/base/context.hpp>
 #include <octavo/boolean/point_table.hpp>
 #include <octavo/exact/sign.hpp>
 
@@ -26,7 +27,8 @@ class RoundedPoints {
     using Point = std::array<std::int64_t, 3>;
     static constexpr int fraction_bits = 36;
 
-    RoundedPoints(const Soup& soup, const PointTable& points);
+    /// Cancellation leaves points without a place.
+    RoundedPoints(const Soup& soup, const PointTable& points, const Context& context = {});
 
     std::size_t size() const { return vertices_.size() + fixed_.size(); }
     Point operator[](PointId id) const {
@@ -47,8 +49,9 @@ class RoundedPoints {
     void move(PointId id, Point to);
 
   private:
+    /// How far the point moves at most, in lattice units.
     template <class P>
-    void round(const P& point, exact::Point cell, std::size_t number);
+    double round(const P& point, exact::Point cell, std::size_t number);
 
     std::span<const exact::Point> vertices_;  ///< of the soup, which must stay
     exact::Lattice lattice_;

@@ -297,9 +297,8 @@ class Mending {
 std::vector<std::uint32_t> find_inverted(const Surface& surface, const Soup& soup,
                                          const RoundedPoints& rounded) {
     std::vector<std::uint32_t> inverted;
-    for (std::uint32_t i = 0; i < surface.triangles.size(); ++i)
-        if (surface.facets[i].is_piece && has_moved(surface.triangles[i], rounded) &&
-            is_inverted(surface, i, soup, rounded))
+    for (auto i = static_cast<std::uint32_t>(surface.first_piece()); i < surface.triangles.size(); ++i)
+        if (has_moved(surface.triangles[i], rounded) && is_inverted(surface, i, soup, rounded))
             inverted.push_back(i);
     return inverted;
 }

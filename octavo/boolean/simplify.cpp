@@ -50,24 +50,28 @@ struct Borders {
 
 class CoplanarMerge {
   public:
-    CoplanarMerge(const Surface& surface, const Soup& soup, const PointTable& points)
-        : surface_(surface), soup_(soup), points_(points), sets_(0) {}
+    CoplanarMerge(Surface surface, const Soup& soup, const PointTable& points, const Context& context)
+        : surface_(std::move(surface)),
+          soup_(soup),
+          points_(points),
+          context_(context),
+          first_piece_(surface_.first_piece()),
+          sets_(0) {}
 
-    Surface run(const Context& context) {
-        while (first_piece_ < surface_.triangles.size() && !surface_.facets[first_piece_].is_piece)
-            ++first_piece_;
-        if (first_piece_ == surface_.triangles.size()) return surface_;
+    Surface run() {
+        if (first_piece_ == surface_.triangles.size()) return std::move(surface_);
         number_points();
         find_sides();
+        if (context_.cancelled()) return {};
         find_regions();
         find_needless();
-        return rebuild(context);
+        return rebuild();
     }
 
   private:
     std::size_t pieces() const { return surface_.triangles.size() - first_piece_; }
 
-    /// Points of pieces get numbers 0, 1, …; those that whole facets have are pinned.
+    /// Points of pieces get numbers 0, 1, …
     void number_points() {
         number_of_.assign(points_.size(), no_index);
         for (std::size_t i = first_piece_; i < surface_.triangles.size(); ++i)
@@ -77,21 +81,34 @@ class CoplanarMerge {
                 borders_.emplace_back();
                 borders_.back().triangle = static_cast<std::uint32_t>(i);
             }
-        pinned_.assign(borders_.size(), 0);
-        for (std::size_t i = 0; i < first_piece_; ++i)
-            for (const PointId point : surface_.triangles[i])
-                if (number_of_[point] != no_index) pinned_[number_of_[point]] = 1;
     }
 
+    /// The sides between points of pieces; those points that whole facets have are pinned.
     void find_sides() {
-        for (std::uint32_t i = 0; i < surface_.triangles.size(); ++i) {
-            const mesh::Triangle& t = surface_.triangles[i];
-            for (int k = 0; k < 3; ++k) {
-                const PointId from = t[k], to = t[(k + 1) % 3];
-                if (i < first_piece_ && (number_of_[from] == no_index || number_of_[to] == no_index))
-                    continue;
-                sides_.push_back({std::min(from, to), std::max(from, to), i, from < to});
+        struct Found {
+            std::vector<Side> sides;
+            std::vector<std::uint32_t> pinned;
+        };
+        constexpr std::size_t grain = 1 << 14;
+        std::vector<Found> found(surface_.triangles.size() / grain + 1);
+        parallel_chunks(context_, surface_.triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+            Found& here = found[begin / grain];
+            for (std::size_t i = begin; i < end; ++i) {
+                const mesh::Triangle& t = surface_.triangles[i];
+                for (int k = 0; k < 3; ++k) {
+                    const PointId from = t[k], to = t[(k + 1) % 3];
+                    if (number_of_[from] == no_index) continue;
+                    if (i < first_piece_) here.pinned.push_back(number_of_[from]);
+                    if (number_of_[to] == no_index) continue;
+                    here.sides.push_back(
+                        {std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(i), from < to});
+                }
             }
+        });
+        pinned_.assign(borders_.size(), 0);
+        for (const Found& part : found) {
+            for (const std::uint32_t number : part.pinned) pinned_[number] = 1;
+            sides_.insert(sides_.end(), part.sides.begin(), part.sides.end());
         }
         std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
             return a.low != b.low     ? a.low < b.low
@@ -149,6 +166,9 @@ class CoplanarMerge {
     struct Region {
         std::vector<std::uint32_t> triangles;             ///< of the surface
         std::vector<std::pair<PointId, PointId>> border;  ///< directed, needless points skipped
+        std::vector<std::uint32_t> soup_facets;           ///< that it has parts of, ascending
+        Surface::Facet name;                              ///< the first of these
+        std::vector<mesh::Triangle> merged;
     };
 
     std::vector<Region> collect_regions() {
@@ -178,20 +198,22 @@ class CoplanarMerge {
         return regions;
     }
 
-    /// The soup facets that the region is in, ascending.
-    std::vector<std::uint32_t> soup_facets(const Region& region) const {
-        std::vector<std::uint32_t> facets;
-        for (const std::uint32_t triangle : region.triangles)
-            facets.push_back(surface_.facets[triangle].soup_facet);
-        std::sort(facets.begin(), facets.end());
-        facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
-        return facets;
+    void name(Region& region) const {
+        region.name = surface_.facets[region.triangles[0]];
+        for (const std::uint32_t triangle : region.triangles) {
+            const Surface::Facet facet = surface_.facets[triangle];
+            if (facet.soup_facet < region.name.soup_facet) region.name = facet;
+            region.soup_facets.push_back(facet.soup_facet);
+        }
+        std::sort(region.soup_facets.begin(), region.soup_facets.end());
+        region.soup_facets.erase(std::unique(region.soup_facets.begin(), region.soup_facets.end()),
+                                 region.soup_facets.end());
     }
 
     /// The region's triangles, from its border alone.
     std::vector<mesh::Triangle> triangulate(Region& region, Subdivision& subdivision) const {
         const Plane plane = surface_.plane(soup_, region.triangles[0]);
-        subdivision.begin_round(plane, soup_, soup_facets(region));
+        subdivision.begin_round(plane, soup_, region.soup_facets);
         std::vector<Subdivision::PointOnLine> points;
         for (const auto& [from, to] : region.border) points.push_back({from, Subdivision::no_line});
         // A point inside may be needed too: something touches the region there.
@@ -220,43 +242,35 @@ class CoplanarMerge {
         return triangles;
     }
 
-    Surface rebuild(const Context& context) {
+    Surface rebuild() {
         std::vector<Region> regions = collect_regions();
-        std::vector<std::vector<mesh::Triangle>> triangles(regions.size());
-        parallel_chunks(context, regions.size(), 64, [&](std::size_t begin, std::size_t end) {
+        parallel_chunks(context_, regions.size(), 64, [&](std::size_t begin, std::size_t end) {
             Subdivision subdivision(points_);
-            for (std::size_t i = begin; i < end; ++i)
-                if (regions[i].triangles.size() > 1) triangles[i] = triangulate(regions[i], subdivision);
+            for (std::size_t i = begin; i < end; ++i) {
+                name(regions[i]);
+                if (regions[i].triangles.size() > 1)
+                    regions[i].merged = triangulate(regions[i], subdivision);
+                else
+                    regions[i].merged = {surface_.triangles[regions[i].triangles[0]]};
+            }
         });
-        Surface result;
-        const auto whole = static_cast<std::ptrdiff_t>(first_piece_);
-        result.triangles.assign(surface_.triangles.begin(), surface_.triangles.begin() + whole);
-        result.facets.assign(surface_.facets.begin(), surface_.facets.begin() + whole);
-        for (std::size_t i = 0; i < regions.size(); ++i) {
-            Surface::Facet facet = surface_.facets[regions[i].triangles[0]];
-            for (const std::uint32_t triangle : regions[i].triangles)
-                if (surface_.facets[triangle].soup_facet < facet.soup_facet)
-                    facet = surface_.facets[triangle];
-            if (regions[i].triangles.size() == 1) {
-                triangles[i] = {surface_.triangles[regions[i].triangles[0]]};
-            } else {
-                const std::vector<std::uint32_t> facets = soup_facets(regions[i]);
-                if (facets.size() > 1)
-                    for (const std::uint32_t part : facets)
-                        result.merged.emplace_back(part, std::uint32_t{facet.soup_facet});
-            }
-            for (const mesh::Triangle& triangle : triangles[i]) {
-                result.triangles.push_back(triangle);
-                result.facets.push_back(facet);
-            }
+        surface_.triangles.resize(first_piece_);
+        surface_.facets.resize(first_piece_);
+        for (const Region& region : regions) {
+            surface_.triangles.insert(surface_.triangles.end(), region.merged.begin(), region.merged.end());
+            surface_.facets.insert(surface_.facets.end(), region.merged.size(), region.name);
+            if (region.soup_facets.size() < 2) continue;
+            for (const std::uint32_t part : region.soup_facets)
+                surface_.merged.emplace_back(part, std::uint32_t{region.name.soup_facet});
         }
-        return result;
+        return std::move(surface_);
     }
 
-    const Surface& surface_;
+    Surface surface_;
     const Soup& soup_;
     const PointTable& points_;
-    std::size_t first_piece_ = 0;
+    const Context& context_;
+    std::size_t first_piece_;
     std::vector<std::uint32_t> number_of_;
     std::vector<Borders> borders_;
     std::vector<char> pinned_, needless_;
@@ -266,9 +280,8 @@ class CoplanarMerge {
 
 }  // namespace
 
-Surface merge_coplanar(const Surface& surface, const Soup& soup, const PointTable& points,
-                       const Context& context) {
-    return CoplanarMerge(surface, soup, points).run(context);
+Surface merge_coplanar(Surface surface, const Soup& soup, const PointTable& points, const Context& context) {
+    return CoplanarMerge(std::move(surface), soup, points, context).run();
 }
 
 }  // namespace octavo::boolean

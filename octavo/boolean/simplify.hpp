@@ -15,7 +15,7 @@
 
 namespace octavo::boolean {
 
-Surface merge_coplanar(const Surface& surface, const Soup& soup, const PointTable& points,
-                       const Context& context);
+/// Cancellation leaves the result incomplete.
+Surface merge_coplanar(Surface surface, const Soup& soup, const PointTable& points, const Context& context);
 
 }  // namespace octavo::boolean

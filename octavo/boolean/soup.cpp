@@ -6,6 +6,7 @@
 
 #include <octavo/base/parallel.hpp>
 #include <octavo/boolean/closing.hpp>
+#include <octavo/boolean/coincident_facets.hpp>
 #include <octavo/boolean/soup.hpp>
 #include <octavo/boolean/weld.hpp>
 #include <octavo/exact/orient.hpp>
@@ -18,22 +19,18 @@ mesh::Source Soup::source(std::uint32_t facet) const {
     return {operand, origin[facet] - first_triangle[operand]};
 }
 
-namespace {
-
-Result<exact::Lattice> joint_lattice(std::span<const mesh::Mesh* const> operands) {
-    Box3 all;
-    for (std::size_t operand = 0; operand < operands.size(); ++operand) {
-        for (const Vec3& vertex : operands[operand]->vertices) {
-            if (!is_finite(vertex))
-                return Error{ErrorCode::bad_input,
-                             "operand " + std::to_string(operand) + " has a vertex that is not finite",
-                             {}};
-            all.add(vertex);
-        }
+void drop_facets(const std::vector<char>& dropped, Soup& soup) {
+    std::size_t kept = 0;
+    for (std::size_t facet = 0; facet < dropped.size(); ++facet) {
+        if (dropped[facet]) continue;
+        soup.facets[kept] = soup.facets[facet];
+        soup.transition[kept] = soup.transition[facet];
+        soup.origin[kept++] = soup.origin[facet];
     }
-    if (all.empty()) return exact::Lattice{};
-    return exact::Lattice::fit(all);
+    soup.facets.resize(kept), soup.transition.resize(kept), soup.origin.resize(kept);
 }
+
+namespace {
 
 /// Runs of elements that are counted through all operands.
 struct Ranges {
@@ -54,6 +51,47 @@ struct Ranges {
 };
 
 constexpr std::size_t chunk_size = 1 << 15;
+
+/// The bounds of each operand. Errors: bad_input when a vertex is not finite.
+Result<std::vector<Box3>> bounds_of(std::span<const mesh::Mesh* const> operands, const Ranges& vertices,
+                                    const Context& context) {
+    struct Part {
+        std::uint32_t operand;
+        Box3 bounds;
+        bool finite;
+    };
+    const std::size_t count = vertices.begin.back();
+    std::vector<std::vector<Part>> parts(count / chunk_size + 1);
+    parallel_chunks(context, count, chunk_size, [&](std::size_t first, std::size_t last) {
+        vertices.for_each(first, last,
+                          [&](std::uint32_t operand, std::size_t from, std::size_t to, std::size_t offset) {
+                              Part part{operand, {}, true};
+                              for (std::size_t i = from; i < to; ++i) {
+                                  const Vec3& vertex = operands[operand]->vertices[i - offset];
+                                  part.finite = part.finite && is_finite(vertex);
+                                  part.bounds.add(vertex);
+                              }
+                              parts[first / chunk_size].push_back(part);
+                          });
+    });
+    std::vector<Box3> bounds(operands.size());
+    for (const std::vector<Part>& chunk : parts)
+        for (const Part& part : chunk) {
+            if (!part.finite)
+                return Error{ErrorCode::bad_input,
+                             "operand " + std::to_string(part.operand) + " has a vertex that is not finite",
+                             {}};
+            bounds[part.operand].add(part.bounds);
+        }
+    return bounds;
+}
+
+Result<exact::Lattice> joint_lattice(const std::vector<Box3>& bounds) {
+    Box3 all;
+    for (const Box3& each : bounds) all.add(each);
+    if (all.empty()) return exact::Lattice{};
+    return exact::Lattice::fit(all);
+}
 
 /// The vertices of all operands on the lattice.
 UninitialisedVector<exact::Point> snap_vertices(std::span<const mesh::Mesh* const> operands,
@@ -90,18 +128,6 @@ Error missing_corner(std::uint32_t operand, std::size_t face) {
                 {}};
     error.place.faces = {static_cast<std::uint32_t>(face)};
     return error;
-}
-
-/// Drops the facets that are marked.
-void drop_facets(const std::vector<char>& dropped, Soup& soup) {
-    std::size_t kept = 0;
-    for (std::size_t facet = 0; facet < dropped.size(); ++facet) {
-        if (dropped[facet]) continue;
-        soup.facets[kept] = soup.facets[facet];
-        soup.transition[kept] = soup.transition[facet];
-        soup.origin[kept++] = soup.origin[facet];
-    }
-    soup.facets.resize(kept), soup.transition.resize(kept), soup.origin.resize(kept);
 }
 
 /// All facets that have an area.
@@ -144,93 +170,15 @@ Status add_facets(std::span<const mesh::Mesh* const> operands, const Ranges& tri
     return Done{};
 }
 
-struct SortedCorners {
-    std::uint32_t middle, high;
-    bool odd;  ///< the facet runs low, high, middle
-};
-
-SortedCorners sorted_corners(const mesh::Triangle& facet) {
-    const int low = facet[0] < facet[1] ? (facet[0] < facet[2] ? 0 : 2) : (facet[1] < facet[2] ? 1 : 2);
-    const std::uint32_t second = facet[(low + 1) % 3], third = facet[(low + 2) % 3];
-    return {std::min(second, third), std::max(second, third), second > third};
-}
-
-}  // namespace
-
-// Buckets by least corner hold two facets on average, so comparing inside them beats hashing all triples.
-void merge_coincident(Soup& soup) {
-    const std::size_t count = soup.facets.size();
-    std::vector<std::uint32_t> begin(soup.points.size() + 1, 0);
-    for (const mesh::Triangle& facet : soup.facets) ++begin[std::min({facet[0], facet[1], facet[2]}) + 1];
-    for (std::size_t point = 0; point < soup.points.size(); ++point) begin[point + 1] += begin[point];
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1), bucket(count);
-    for (std::uint32_t facet = 0; facet < count; ++facet) {
-        const mesh::Triangle& corners = soup.facets[facet];
-        bucket[next[std::min({corners[0], corners[1], corners[2]})]++] = facet;
-    }
-
-    struct Key {
-        std::uint32_t middle, high, facet;
-        bool odd;
-        bool operator<(const Key& other) const {
-            return std::tie(middle, high, facet) < std::tie(other.middle, other.high, other.facet);
-        }
-    };
-    std::vector<Key> keys;
-    TransitionSum sum;
-    std::vector<char> dropped;
-    for (std::size_t point = 0; point < soup.points.size(); ++point) {
-        const std::size_t size = begin[point + 1] - begin[point];
-        if (size < 2) continue;
-        keys.clear();
-        for (std::uint32_t i = begin[point]; i < begin[point + 1]; ++i) {
-            const SortedCorners corners = sorted_corners(soup.facets[bucket[i]]);
-            keys.push_back({corners.middle, corners.high, bucket[i], corners.odd});
-        }
-        bool repeated = false;
-        if (size <= 8) {
-            for (std::size_t i = 0; i < size; ++i)
-                for (std::size_t j = 0; j < i; ++j)
-                    repeated = repeated || (keys[i].middle == keys[j].middle && keys[i].high == keys[j].high);
-            if (!repeated) continue;
-        }
-        std::sort(keys.begin(), keys.end());
-        for (std::size_t i = 0, end; i < size; i = end) {
-            for (end = i + 1;
-                 end < size && keys[end].middle == keys[i].middle && keys[end].high == keys[i].high;)
-                ++end;
-            if (end == i + 1) continue;
-            sum.clear();
-            if (dropped.empty()) dropped.assign(count, 0);
-            for (std::size_t k = i; k < end; ++k) {
-                sum.add(soup.transitions.of(soup.transition[keys[k].facet]),
-                        keys[k].odd == keys[i].odd ? 1 : -1);
-                dropped[keys[k].facet] = k > i;
-            }
-            soup.coincident_facets += end - i - 1;
-            const std::span<const Delta> total = sum.normalised();
-            if (total.empty())
-                dropped[keys[i].facet] = 1;
-            else
-                soup.transition[keys[i].facet] = soup.transitions.intern(total);
-        }
-    }
-    if (!dropped.empty()) drop_facets(dropped, soup);
-}
-
-namespace {
-
 /// Operands that are a few units across lose their shape, and vanish below one unit; that is never silent.
-void warn_of_small_operands(std::span<const mesh::Mesh* const> operands, Soup& soup) {
+void warn_of_small_operands(const std::vector<Box3>& bounds, Soup& soup) {
     constexpr double few_units = 4096;
     std::string names;
     std::size_t count = 0;
     double least = few_units;
-    for (std::size_t operand = 0; operand < operands.size(); ++operand) {
-        Box3 bounds;
-        for (const Vec3& vertex : operands[operand]->vertices) bounds.add(vertex);
-        if (bounds.empty()) continue;
-        const Vec3 extents = bounds.extents();
+    for (std::size_t operand = 0; operand < bounds.size(); ++operand) {
+        if (bounds[operand].empty()) continue;
+        const Vec3 extents = bounds[operand].extents();
         const double units = std::max({extents.x, extents.y, extents.z}) / soup.lattice.unit();
         if (units >= few_units) continue;
         least = std::min(least, units);
@@ -258,10 +206,6 @@ std::string warning_of(const Closing& closing) {
 Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands open,
                        const Context& context) {
     Soup soup;
-    Result<exact::Lattice> lattice = joint_lattice(operands);
-    if (!lattice) return lattice.error();
-    soup.lattice = *lattice;
-
     Ranges triangles{{0}}, vertices{{0}};
     for (const mesh::Mesh* operand : operands) {
         soup.first_triangle.push_back(static_cast<std::uint32_t>(triangles.begin.back()));
@@ -273,6 +217,12 @@ Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands
         return Error{
             ErrorCode::limit, "the operands have more than 357 million facets or 1 billion vertices", {}};
     soup.first_triangle.push_back(static_cast<std::uint32_t>(triangles.begin.back()));
+    const Result<std::vector<Box3>> bounds = bounds_of(operands, vertices, context);
+    if (!bounds) return bounds.error();
+    if (context.cancelled()) return Context::cancelled_error();
+    const Result<exact::Lattice> lattice = joint_lattice(*bounds);
+    if (!lattice) return lattice.error();
+    soup.lattice = *lattice;
     soup.transitions = TransitionTable(static_cast<std::uint32_t>(operands.size()));
     Welded welded = weld(snap_vertices(operands, vertices, soup, context), context);
     if (context.cancelled()) return Context::cancelled_error();
@@ -283,13 +233,14 @@ Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands
     if (soup.flat_facets > 0)
         soup.warnings.push_back(std::to_string(soup.flat_facets) +
                                 " facets have no area on the lattice and were dropped");
-    warn_of_small_operands(operands, soup);
+    warn_of_small_operands(*bounds, soup);
     if (open == OpenOperands::winding) {
         const Closing closing = close_operands(soup);
         soup.closing_facets = closing.added_facets;
         if (!closing.operands.empty()) soup.warnings.push_back(warning_of(closing));
     }
-    merge_coincident(soup);
+    merge_coincident(soup, context);
+    if (context.cancelled()) return Context::cancelled_error();
     return soup;
 }
 

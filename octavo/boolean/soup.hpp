@@ -19,7 +19,7 @@
 // the sum of their winding changes; where the sum is nothing they vanish. Identical operands, the case that makes
 // pair tests explode, thus cost no more than one operand.
 //
-// Cost: linear, about 60 ns a facet; in parallel but for the merging of facets.
+// Cost: linear, about 60 ns a facet; in parallel.
 
 namespace octavo::boolean {
 
@@ -55,7 +55,7 @@ struct Soup {
 Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands open,
                        const Context& context);
 
-/// Makes facets of equal corners one, which carries the sum of their winding changes; where that is nothing, they vanish.
-void merge_coincident(Soup& soup);
+/// Drops the facets that are marked.
+void drop_facets(const std::vector<char>& dropped, Soup& soup);
 
 }  // namespace octavo::boolean

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/arrangement.hpp>
 #include <octavo/boolean/classify.hpp>
 #include <octavo/boolean/patches.hpp>
@@ -22,10 +24,17 @@ struct Surface {
         std::uint32_t reversed : 1;     ///< it turns against that facet
         std::uint32_t is_piece : 1;     ///< not a whole input facet
     };
-    std::vector<mesh::Triangle> triangles;
-    std::vector<Facet> facets;
+    UninitialisedVector<mesh::Triangle> triangles;  ///< whole input facets first
+    UninitialisedVector<Facet> facets;              ///< of each triangle
     /// Soup facets whose pieces are parts of a polygon with pieces of others, and the facet that this is named after.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> merged;
+
+    /// The number of whole input facets.
+    std::size_t first_piece() const {
+        const auto at = std::partition_point(facets.begin(), facets.end(),
+                                             [](const Facet& facet) { return facet.is_piece == 0; });
+        return static_cast<std::size_t>(at - facets.begin());
+    }
 
     /// The plane of triangle `index`, its front outside the solid.
     exact::Plane plane(const Soup& soup, std::size_t index) const {
@@ -36,14 +45,16 @@ struct Surface {
     }
 };
 
-/// The triangles that bound the result, in the order of the complex: whole facets first.
-Surface select(const Complex& complex, const Patches& patches, const Classification& classification);
+/// The triangles that bound the result, in the order of the complex. Cancellation leaves surfaces incomplete.
+Surface select(const Complex& complex, const Patches& patches, const Classification& classification,
+               const Context& context);
 
 /// The triangles that dangle, as their facets turn.
-Surface select_dangling(const Complex& complex, const Patches& patches, const Classification& classification);
+Surface select_dangling(const Complex& complex, const Patches& patches, const Classification& classification,
+                        const Context& context);
 
 /// Per point: whether it is where triangles were cut, or met other surfaces. All other points keep their fan of
 /// input facets.
-std::vector<char> special_points(const Surface& surface, const Patches& patches, std::size_t points);
+std::vector<char> special_points(const Surface& surface, const Patches& patches);
 
 }  // namespace octavo::boolean

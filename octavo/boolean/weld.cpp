@@ -3,6 +3,7 @@
 #include <bit>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/weld.hpp>
 
 namespace octavo::boolean {
@@ -52,13 +53,39 @@ Parts deal_out(const UninitialisedVector<exact::Point>& positions, const Context
     return result;
 }
 
+/// Numbers the points in the order of the positions at which they appear first.
+Welded number_points(const UninitialisedVector<exact::Point>& positions,
+                     const UninitialisedVector<std::uint32_t>& first_of, const Context& context) {
+    constexpr std::size_t grain = 1 << 15;
+    const std::vector<std::size_t> offset =
+        chunk_offsets(context, positions.size(), grain, [&](std::size_t begin, std::size_t end) {
+            std::size_t count = 0;
+            for (std::size_t i = begin; i < end; ++i) count += first_of[i] == i;
+            return count;
+        });
+    Welded result;
+    result.points.resize(offset.back());
+    result.point_of.resize(positions.size());
+    parallel_chunks(context, positions.size(), grain, [&](std::size_t begin, std::size_t end) {
+        auto point = static_cast<std::uint32_t>(offset[begin / grain]);
+        for (std::size_t i = begin; i < end; ++i) {
+            if (first_of[i] != i) continue;
+            result.points[point] = positions[i];
+            result.point_of[i] = point++;
+        }
+    });
+    parallel_chunks(context, positions.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (first_of[i] != i) result.point_of[i] = result.point_of[first_of[i]];
+    });
+    return result;
+}
+
 }  // namespace
 
 Welded weld(const UninitialisedVector<exact::Point>& positions, const Context& context) {
     const Parts parts = deal_out(positions, context);
-    Welded result;
-    result.point_of.resize(positions.size());
-    // At first the position where the point appears first.
+    UninitialisedVector<std::uint32_t> first_of(positions.size());
     parallel_chunks(context, parts.begin.size() - 1, 1, [&](std::size_t part, std::size_t) {
         const std::uint32_t begin = parts.begin[part], end = parts.begin[part + 1];
         constexpr std::uint32_t empty = ~std::uint32_t{0};
@@ -70,20 +97,11 @@ Welded weld(const UninitialisedVector<exact::Point>& positions, const Context& c
             while (slots[slot] != empty && parts.records[slots[slot]].point != record.point)
                 slot = (slot + 1) & mask;
             if (slots[slot] == empty) slots[slot] = i;
-            result.point_of[record.position] = parts.records[slots[slot]].position;
+            first_of[record.position] = parts.records[slots[slot]].position;
         }
     });
-    result.points.reserve(positions.size());
-    for (std::uint32_t position = 0; position < positions.size(); ++position) {
-        std::uint32_t& point = result.point_of[position];
-        if (point == position) {
-            point = static_cast<std::uint32_t>(result.points.size());
-            result.points.push_back(positions[position]);
-        } else {
-            point = result.point_of[point];
-        }
-    }
-    return result;
+    if (context.cancelled()) return {};
+    return number_points(positions, first_of, context);
 }
 
 }  // namespace octavo::boolean

@@ -81,7 +81,8 @@ Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context) {
     context.report("mesh", 0.9);
     const boolean::RoundedPoints rounded(soup, points);
     boolean::Assembled assembled =
-        boolean::assemble(surface, soup, points, rounded, std::vector<char>(points.size(), 1));
+        boolean::assemble(surface, soup, points, rounded, std::vector<char>(points.size(), 1), context);
+    if (context.cancelled()) return Context::cancelled_error();
     result.report.largest_rounding = rounded.largest_rounding();
     result.report.inverted_facets = boolean::find_inverted(surface, soup, rounded).size();
     result.report.duplicated_vertices = assembled.duplicated_vertices;
