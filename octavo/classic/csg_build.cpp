@@ -57,28 +57,52 @@ class GrayCells {
 
     static constexpr int finished_levels = CsgDescent::finished_levels;
     Node finish(const octree::Cell& cell, const Description& d, Workspace& workspace, Output& output) const {
-        const octree::GrandchildColors known = colors_below(d.node),
-                                       seen = descent_.color_brick(cell, d.words, workspace);
-        const std::uint64_t open = ~(known.white | known.black);
-        return output.finish({known.white | (seen.white & open), known.black | (seen.black & open)});
+        CsgDescent::Octants known;
+        unsigned open = 0;
+        std::size_t node = d.node + 1;
+        for (unsigned i = 0; i < 8; ++i) {
+            known[i].node = code_[node];
+            if (known[i].node == Node::split) {
+                open |= 1U << i;
+                known[i].colors = colors_below(node);
+            } else {
+                ++node;
+            }
+        }
+        CsgDescent::Octants seen = descent_.color_octants(cell, d.words, open, workspace);
+        for (std::size_t i = 0; i < 8; ++i) {
+            if (!(open >> i & 1))
+                seen[i].node = known[i].node;
+            else if (seen[i].node == Node::split)
+                seen[i].colors = joined(known[i].colors, seen[i].colors);
+        }
+        return CsgDescent::write(cell, seen, d.words, workspace, output);
     }
 
   private:
-    /// Of the node's octants and theirs.
-    octree::GrandchildColors colors_below(std::size_t node) const {
+    /// What is not known from the octree is as seen.
+    static octree::GrandchildColors joined(const octree::GrandchildColors& known,
+                                           const octree::GrandchildColors& seen) {
+        const std::uint64_t open = ~(known.white | known.black);
+        return {known.white | (seen.white & open), known.black | (seen.black & open)};
+    }
+
+    /// Of the octants of a split node and theirs. Moves on to the node after them.
+    octree::GrandchildColors colors_below(std::size_t& node) const {
         octree::GrandchildColors colors;
         const auto add = [&](Node leaf, std::uint64_t cells) {
             if (leaf == Node::white) colors.white |= cells;
             if (leaf == Node::black) colors.black |= cells;
         };
+        ++node;
         for (int outer = 0; outer < 8; ++outer) {
-            const Node octant = code_[++node];
+            const Node octant = code_[node++];
             if (is_leaf(octant)) {
                 add(octant, std::uint64_t{0xFF} << (8 * outer));
                 continue;
             }
             for (int inner = 0; inner < 8; ++inner)
-                add(code_[++node], std::uint64_t{1} << (8 * outer + inner));
+                add(code_[node++], std::uint64_t{1} << (8 * outer + inner));
         }
         return colors;
     }

@@ -51,7 +51,8 @@ class CsgDescent {
             std::uint64_t bytes = 0;
             for (const auto& buffer : buffers) bytes += buffer.capacity() * sizeof(std::uint32_t);
             counters_->octants += octants;
-            counters_->tests += pruner.primitive_tests() + brick.primitive_tests();
+            counters_->tests += pruner.primitive_tests();
+            for (const csg::Brick& brick : bricks) counters_->tests += brick.primitive_tests();
             counters_->resolved += resolved;
             std::uint64_t most = counters_->program_bytes;
             while (bytes > most && !counters_->program_bytes.compare_exchange_weak(most, bytes)) {
@@ -63,7 +64,8 @@ class CsgDescent {
         }
 
         csg::Pruner pruner;
-        csg::Brick brick;
+        std::array<csg::Brick, 8> bricks;
+        csg::BodiesInCells bodies;
         csg::SecondLook second_look;
         std::array<csg::Scratch<std::uint32_t>, octree::max_level + 2> buffers;
         csg::Scratch<std::uint32_t> cell_words;
@@ -138,33 +140,91 @@ class CsgDescent {
         }
     }
 
-    static constexpr int finished_levels = 2;
+    static constexpr int finished_levels = 3;
     octree::Node finish(const octree::Cell& cell, const Description& description, Workspace& workspace,
                         Output& output) const {
-        return output.finish(color_brick(cell, description, workspace));
+        return write(cell, color_octants(cell, description, 0xFF, workspace), description, workspace, output);
     }
 
-    /// The last two levels at once.
-    octree::GrandchildColors color_brick(const octree::Cell& cell, const Description& description,
-                                         Workspace& workspace) const {
-        const std::span<const std::uint32_t> words = workspace.words(description);
-        const csg::BrickSeen& seen = workspace.brick.evaluate(program_, words, cell);
-        csg::LayerPair colors = seen.cells;
-        if (resolves()) {
-            csg::Layers unproved = seen.unproved();
-            while (const std::optional<csg::BrickCell> next = take_first(unproved)) {
-                workspace.brick.prune(words, *next, workspace.cell_words);
-                const octree::Color color = look_again(cell_of(cell, *next), workspace);
-                if (color == octree::Color::white) next->add_to(colors.out);
-                if (color == octree::Color::black) next->add_to(colors.in);
-            }
+    /// The octants of a cell three levels above the last: decided ones, and those that are split with the colours of all
+    /// that is two levels below them.
+    struct Octant {
+        octree::Node node = octree::Node::split;
+        octree::GrandchildColors colors{};
+    };
+    using Octants = std::array<Octant, 8>;
+
+    /// Octants that are not in the set `open` are left split, without colours. The bodies of all eight bricks share
+    /// the lanes in which the cells that they may enter are looked at.
+    Octants color_octants(const octree::Cell& cell, const Description& description, unsigned open,
+                          Workspace& workspace) const {
+        octree::Children<Description> children;
+        restrict_to_children(cell, description, workspace, children);
+        Octants octants;
+        for (std::size_t i = 0; i < 8; ++i) {
+            octants[i].node = children[i].node;
+            if (!(open >> i & 1))
+                octants[i].node = octree::Node::split;
+            else if (is_leaf(children[i].node))
+                open &= ~(1U << i);
         }
-        const octree::GrandchildColors in_order{in_morton_order(colors.out), in_morton_order(colors.in)};
-        workspace.octants += 8 + 8 * octants_of_two_colors(in_order);
-        return in_order;
+        const auto each_open = [open](const auto& visit) {
+            for (unsigned left = open; left != 0; left &= left - 1)
+                visit(static_cast<std::size_t>(std::countr_zero(left)));
+        };
+        each_open([&](std::size_t i) {
+            csg::Brick& brick = workspace.bricks[i];
+            brick.look(program_, workspace.words(children[i].description), cell.child(static_cast<int>(i)));
+            brick.ask(workspace.bodies);
+        });
+        workspace.bodies.finish();
+        each_open([&](std::size_t i) {
+            octants[i].colors = colors_of(workspace.bricks[i], cell.child(static_cast<int>(i)), workspace);
+        });
+        return octants;
+    }
+
+    /// Returns the colour of all of the cell when its octants are merged, else split.
+    static octree::Node write(const octree::Cell& cell, const Octants& octants,
+                              const Description& description, const Workspace& workspace, Output& output) {
+        output.split(cell, description, workspace);
+        octree::Node common = octree::Node::split;
+        for (std::size_t i = 0; i < 8; ++i) {
+            const Octant& octant = octants[i];
+            octree::Node node = octant.node;
+            if (node == octree::Node::split)
+                node = output.finish(octant.colors);
+            else
+                output.leaf(cell.child(static_cast<int>(i)), octree::Restricted<Description>{node, {}},
+                            workspace);
+            common = i == 0 || node == common ? node : octree::Node::split;
+        }
+        if (common == octree::Node::white || common == octree::Node::black) {
+            output.merge(cell, color_of(common));
+            return common;
+        }
+        return octree::Node::split;
     }
 
   private:
+    /// The cells of a brick that has been looked at, and whose bodies have been asked about.
+    octree::GrandchildColors colors_of(csg::Brick& brick, const octree::Cell& cell,
+                                       Workspace& workspace) const {
+        const csg::Brick::Colors& seen = brick.settle();
+        csg::LayerPair colors = seen.cells;
+        if (resolves() && seen.unproved.any())
+            for_each_cell(seen.unproved, [&](csg::BrickCell next) {
+                brick.prune(next, workspace.cell_words);
+                const octree::Color color = look_again(cell_of(cell, next), workspace);
+                if (color == octree::Color::white) next.add_to(colors.out);
+                if (color == octree::Color::black) next.add_to(colors.in);
+            });
+        const csg::InMortonOrder in_order(colors.out, colors.in);
+        const octree::GrandchildColors result{in_order.first, in_order.second};
+        workspace.octants += 8 + 8 * octants_of_two_colors(result);
+        return result;
+    }
+
     /// Octants of a cell that are not white as a whole, nor black.
     static std::uint64_t octants_of_two_colors(const octree::GrandchildColors& colors) {
         std::uint64_t count = 0;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors do not leave this file
 
-#include <algorithm>
-#include <bit>
+#include <cstdint>
 #include <cstring>
 
 #include <octavo/csg/body_in_cells.hpp>
@@ -12,7 +11,6 @@ namespace {
 
 using Floats = float __attribute__((vector_size(32)));
 using Flags = std::int32_t __attribute__((vector_size(32)));
-constexpr std::size_t lanes = 8, most_at_once = 8;
 
 // How deep in a constraint the walk aims to arrive, in parts of a cell, by round. Less every time: thin bodies leave no
 // more room.
@@ -27,6 +25,12 @@ bool any(Flags flags) {
     std::memcpy(words.data(), &flags, sizeof words);
     return (words[0] | words[1] | words[2] | words[3]) != 0;
 }
+Floats in_register(const std::array<float, 8>& numbers) {
+    Floats result;
+    static_assert(sizeof result == sizeof numbers);
+    std::memcpy(&result, numbers.data(), sizeof result);
+    return result;
+}
 
 using Point = std::array<Floats, 3>;
 
@@ -34,77 +38,104 @@ using Point = std::array<Floats, 3>;
 struct Tangent {
     Floats value;
     Point gradient;
-
-    Tangent() = default;
-    Tangent(const BrickSurface& s, const Point& p) {
-        const Floats x = p[0], y = p[1], z = p[2];
-        const Floats along_x = s.x + x * s.xx + (y * s.xy + z * s.xz), along_y = s.y + y * s.yy + z * s.yz,
-                     along_z = s.z + z * s.zz;
-        value = s.low + (x * along_x + y * along_y + z * along_z);
-        gradient = {along_x + x * s.xx, along_y + (y * s.yy + x * s.xy),
-                    along_z + (z * s.zz + (x * s.xz + y * s.yz))};
-    }
 };
 
-/// Up to eight cells, one a lane.
-class CellLanes {
+}  // namespace
+
+class BodiesInCells::Walk {
   public:
-    CellLanes(std::span<const BrickSurface> surfaces, const Point& low) : surfaces_(surfaces), low_(low) {
-        for (std::size_t a = 0; a < 3; ++a) point_[a] = low_[a] + 0.5F;
+    explicit Walk(const BodiesInCells& asked)
+        : surfaces_(asked.surfaces_.data()), curved_(asked.curved_.data()), count_(asked.used_) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            low_[a] = in_register(asked.low_[a]);
+            point_[a] = low_[a] + 0.5F;
+        }
     }
 
     Flags entered() const { return entered_; }
     Flags missed() const { return missed_; }
 
-    void walk() {
+    void run() {
+        look<true>();
         for (const float aim : aims) {
-            look();
             if (!any(~(entered_ | missed_))) return;
             move(aim);
+            look<false>();
         }
-        look();
     }
 
   private:
-    /// The sum of what each axis adds to a linear function at the point on the way to where it is least in the cell.
-    Floats fall(const Point& gradient) const {
-        Floats sum{};
-        for (std::size_t a = 0; a < 3; ++a) {
-            const Floats down = low_[a] - point_[a];
-            sum += smaller(gradient[a] * down, gradient[a] * (down + 1));
-        }
-        return sum;
-    }
-
-    /// What the surfaces at the point tell.
+    /// What the surfaces at the point tell. What only planes say is the same at every point.
+    template <bool first>
     void look() {
         Flags inside = ~Flags{};
-        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-            const BrickSurface& surface = surfaces_[i];
-            const Tangent& tangent = tangents_[i] = Tangent(surface, point_);
-            inside &= tangent.value < -surface.error;
-            // The tangent has 40 roundings of parts of the surface's size: less than eight errors, which are 256.
-            missed_ |= tangent.value + fall(tangent.gradient) > 8 * surface.error + surface.bend;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Floats error = in_register(surfaces_[i].error);
+            if (!curved_[i]) {
+                look_at_plane<first>(i);
+            } else {
+                look_at_quadric(i);
+                // The tangent has 40 roundings of parts of the surface's size: less than eight errors, which are 256.
+                const Tangent& tangent = tangents_[i];
+                missed_ |= tangent.value + fall(tangent.gradient[0], 0) + fall(tangent.gradient[1], 1) +
+                               fall(tangent.gradient[2], 2) >
+                           8 * error + in_register(surfaces_[i].bend);
+            }
+            inside &= tangents_[i].value < -error;
         }
         entered_ |= inside;
-        for (std::size_t i = 0; i < surfaces_.size(); ++i)
-            for (std::size_t j = i + 1; j < surfaces_.size(); ++j) compare(i, j);
+        for (std::size_t i = 0; i < count_; ++i)
+            for (std::size_t j = i + 1; j < count_; ++j)
+                if (first || curved_[i] || curved_[j]) compare(i, j);
+    }
+
+    template <bool first>
+    void look_at_plane(std::size_t i) {
+        const Surfaces& s = surfaces_[i];
+        Tangent& tangent = tangents_[i];
+        if (first) tangent.gradient = {in_register(s.x), in_register(s.y), in_register(s.z)};
+        tangent.value =
+            in_register(s.low) + (point_[0] * tangent.gradient[0] + point_[1] * tangent.gradient[1] +
+                                  point_[2] * tangent.gradient[2]);
+    }
+    void look_at_quadric(std::size_t i) {
+        const Surfaces& s = surfaces_[i];
+        const Floats x = point_[0], y = point_[1], z = point_[2], xx = in_register(s.xx),
+                     yy = in_register(s.yy), zz = in_register(s.zz), xy = in_register(s.xy),
+                     xz = in_register(s.xz), yz = in_register(s.yz);
+        const Floats along_x = in_register(s.x) + x * xx + (y * xy + z * xz),
+                     along_y = in_register(s.y) + y * yy + z * yz, along_z = in_register(s.z) + z * zz;
+        tangents_[i] = {
+            in_register(s.low) + (x * along_x + y * along_y + z * along_z),
+            {along_x + x * xx, along_y + (y * yy + x * xy), along_z + (z * zz + (x * xz + y * yz))}};
+    }
+
+    /// What a component of a gradient adds to a linear function at the point on the way to where it is least in the cell.
+    Floats fall(Floats component, std::size_t axis) const {
+        const Floats down = low_[axis] - point_[axis];
+        return smaller(component * down, component * (down + 1));
     }
 
     /// Whether a weighted sum of two tangents is positive in all of the cell.
     void compare(std::size_t i, std::size_t j) {
         const Tangent &first = tangents_[i], &second = tangents_[j];
+        const Floats first_room = 16 * in_register(surfaces_[i].error) + in_register(surfaces_[i].bend),
+                     second_room = 16 * in_register(surfaces_[j].error) + in_register(surfaces_[j].bend);
         for (std::size_t a = 0; a < 3; ++a) {
-            const Floats p = first.gradient[a], q = second.gradient[a];
-            missed_ |= (p * q < 0) &
-                       is_positive(absolute(q), first, surfaces_[i], absolute(p), second, surfaces_[j]);
+            const Floats f = first.gradient[a], g = second.gradient[a], p = absolute(g), q = absolute(f);
+            const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+            const Floats least = p * first.value + q * second.value +
+                                 fall(p * first.gradient[b] + q * second.gradient[b], b) +
+                                 fall(p * first.gradient[c] + q * second.gradient[c], c);
+            // Infinite where a product overflows, which proves nothing.
+            missed_ |= (f * g < 0) & (least > p * first_room + q * second_room) & (least < 0x1p120F);
         }
     }
 
     /// Moves the point on to the insides of all surfaces that it is outside of.
     void move(float aim) {
         Point step{};
-        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+        for (std::size_t i = 0; i < count_; ++i) {
             const Tangent& tangent = tangents_[i];
             Floats square{};
             for (std::size_t a = 0; a < 3; ++a) {
@@ -113,7 +144,7 @@ class CellLanes {
                 const Flags free = g > 0 ? point_[a] > low_[a] : point_[a] < low_[a] + 1;
                 square += free ? g * g : Floats{};
             }
-            const Floats excess = larger(tangent.value + aim * surfaces_[i].slope, Floats{});
+            const Floats excess = larger(tangent.value + aim * in_register(surfaces_[i].slope), Floats{});
             const Floats factor = excess / larger(square, Floats{} + 0x1p-100F);
             for (std::size_t a = 0; a < 3; ++a) step[a] += factor * tangent.gradient[a];
         }
@@ -121,54 +152,64 @@ class CellLanes {
             point_[a] = smaller(larger(point_[a] - step[a], low_[a]), low_[a] + 1);
     }
 
-    Flags is_positive(Floats p, const Tangent& first, const BrickSurface& a, Floats q, const Tangent& second,
-                      const BrickSurface& b) const {
-        Point gradient;
-        for (std::size_t i = 0; i < 3; ++i) gradient[i] = p * first.gradient[i] + q * second.gradient[i];
-        const Floats least = p * first.value + q * second.value + fall(gradient);
-        // Infinite where a product overflows, which proves nothing.
-        return (least > p * (16 * a.error + a.bend) + q * (16 * b.error + b.bend)) & (least < 0x1p120F);
-    }
-
-    std::span<const BrickSurface> surfaces_;
+    const Surfaces* surfaces_;
+    const bool* curved_;
+    std::size_t count_;
     Point low_, point_;
     std::array<Tangent, most_at_once> tangents_;
     Flags entered_{}, missed_{};
 };
 
-}  // namespace
-
-BodyInCells body_in_cells(std::span<const BrickSurface> surfaces, const Layers& asked) {
-    const bool complete = surfaces.size() <= most_at_once;
-    if (!complete) surfaces = surfaces.first(most_at_once);
-    BodyInCells result;
-    Layers left = asked;
-    for (;;) {
-        std::array<BrickCell, lanes> cells{};
-        std::size_t count = 0;
-        for (; count < lanes; ++count) {
-            const std::optional<BrickCell> next = take_first(left);
-            if (!next) break;
-            cells[count] = *next;
-        }
-        if (count == 0) return result;
-        std::array<std::array<float, lanes>, 3> low{};
-        for (std::size_t i = 0; i < lanes; ++i) {
-            const BrickCell& cell = cells[i < count ? i : 0];
-            low[0][i] = static_cast<float>(cell.x);
-            low[1][i] = static_cast<float>(cell.y);
-            low[2][i] = static_cast<float>(cell.z);
-        }
-        Point corner;
-        static_assert(sizeof corner == sizeof low);
-        std::memcpy(corner.data(), low.data(), sizeof corner);
-        CellLanes walked(surfaces, corner);
-        walked.walk();
-        for (std::size_t i = 0; i < count; ++i) {
-            if (walked.missed()[i]) cells[i].add_to(result.missed);
-            if (complete && walked.entered()[i]) cells[i].add_to(result.entered);
-        }
+/// Room for so many surfaces a lane; those of lanes that have fewer say nothing.
+void BodiesInCells::make_room(std::size_t surfaces) {
+    for (; used_ < surfaces; ++used_) {
+        surfaces_[used_] = {};
+        surfaces_[used_].low.fill(-1);
+        curved_[used_] = false;
     }
+}
+
+void BodiesInCells::ask(std::span<const BrickSurface> surfaces, const Layers* matters, BrickCell cell,
+                        BodyInCells& answer) {
+    const std::size_t lane = count_++;
+    questions_[lane] = {cell, &answer, true};
+    low_[0][lane] = static_cast<float>(cell.x);
+    low_[1][lane] = static_cast<float>(cell.y);
+    low_[2][lane] = static_cast<float>(cell.z);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        if (!cell.in(matters[i])) continue;
+        if (count == most_at_once) {
+            questions_[lane].complete = false;
+            break;
+        }
+        const BrickSurface& s = surfaces[i];
+        make_room(count + 1);
+        Surfaces& to = surfaces_[count];
+        to.low[lane] = s.low, to.x[lane] = s.x, to.y[lane] = s.y, to.z[lane] = s.z;
+        to.error[lane] = s.error, to.slope[lane] = s.slope;
+        if (s.curved) {
+            curved_[count] = true;
+            to.xx[lane] = s.xx, to.yy[lane] = s.yy, to.zz[lane] = s.zz;
+            to.xy[lane] = s.xy, to.xz[lane] = s.xz, to.yz[lane] = s.yz;
+            to.bend[lane] = s.bend;
+        }
+        ++count;
+    }
+    if (count_ == lanes) finish();
+}
+
+void BodiesInCells::finish() {
+    if (count_ == 0) return;
+    make_room(1);
+    Walk walk(*this);
+    walk.run();
+    for (std::size_t lane = 0; lane < count_; ++lane) {
+        const Question& question = questions_[lane];
+        if (walk.missed()[lane]) question.cell.add_to(question.answer->missed);
+        if (question.complete && walk.entered()[lane]) question.cell.add_to(question.answer->entered);
+    }
+    count_ = used_ = 0;
 }
 
 }  // namespace octavo::csg

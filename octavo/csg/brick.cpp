@@ -1,89 +1,134 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <bit>
+#include <algorithm>
 
 #include <octavo/csg/brick.hpp>
 #include <octavo/csg/classify.hpp>
 
 namespace octavo::csg {
 
-const BrickSeen& Brick::evaluate(const Program& program, std::span<const std::uint32_t> words,
-                                 const octree::Cell& parent) {
+void Brick::look(const Program& program, std::span<const std::uint32_t> words, const octree::Cell& parent) {
     program_ = &program;
+    words_ = words;
     matters_.clear();
     windings_.clear();
+    surfaces_.clear();
     nodes_.resize(words.size());
     const auto see = [&](std::uint32_t at, const Layers& needed) {
-        nodes_[at].matters = static_cast<std::uint32_t>(matters_.size());
-        nodes_[at].windings = static_cast<std::uint32_t>(windings_.size());
-        BrickSeen seen = look(program.leaves[word::leaf(words[at])], payload_at(words, at), parent, needed);
+        Node& node = nodes_[at];
+        node.matters = static_cast<std::uint32_t>(matters_.size());
+        node.windings = static_cast<std::uint32_t>(windings_.size());
+        node.surfaces = static_cast<std::uint32_t>(surfaces_.size());
+        node.surface_count = 0;
+        node.needed = needed;
+        node.body = {};
+        CornersSeen seen =
+            look_at(program.leaves[word::leaf(words[at])], payload_at(words, at), parent, node);
+        node.seen = seen;
         if (words[at] & word::complement_bit) seen = complement(seen);
-        nodes_[at].cells = seen.cells;
+        node.cells = seen.cells;
         return seen;
     };
-    const auto note = [&](std::uint32_t at, const BrickSeen& seen) { nodes_[at].cells = seen.cells; };
-    result_ = fold_words<BrickSeen>(words, Layers::cells(), open_, see, note);
-    return result_;
+    const auto note = [&](std::uint32_t at, const CornersSeen& seen) { nodes_[at].cells = seen.cells; };
+    const CornersSeen seen = fold_words<CornersSeen>(words, Layers::cells(), open_, see, note);
+    reached_by_corners_ = seen.reached();
+    colors_ = {seen.cells, without(neither(seen.cells, Layers::cells()),
+                                   reached_by_corners_.out & reached_by_corners_.in)};
 }
 
-BrickSeen Brick::look(const Leaf& leaf, Payload payload, const octree::Cell& parent, const Layers& needed) {
+void Brick::ask(BodiesInCells& bodies) {
+    if (!colors_.unproved.any()) return;
+    for (std::uint32_t at = 0; at < words_.size();
+         at += word::is_leaf(words_[at]) ? word::size(&words_[at]) : 1) {
+        if (!word::is_leaf(words_[at])) continue;
+        Node& node = nodes_[at];
+        if (node.surface_count == 0) continue;
+        // Where no corner lies in the body.
+        const Layers asked =
+            without(without(colors_.unproved & node.needed, node.seen.cells.out), node.seen.reached().in);
+        for_each_cell(asked, [&](BrickCell cell) {
+            bodies.ask({surfaces_.data() + node.surfaces, node.surface_count}, matters_.data() + node.matters,
+                       cell, node.body);
+        });
+    }
+}
+
+const Brick::Colors& Brick::settle() {
+    if (!colors_.unproved.any()) return colors_;
+    const auto see = [&](std::uint32_t at, const Layers&) {
+        Node& node = nodes_[at];
+        const LayerPair reached = node.seen.reached();
+        ReachSeen seen{
+            {node.seen.cells.out | node.body.missed, without(node.seen.cells.in, node.body.missed)},
+            {reached.out | node.body.missed, reached.in | node.body.entered}};
+        if (words_[at] & word::complement_bit) seen = complement(seen);
+        node.cells = seen.cells;
+        return seen;
+    };
+    const auto note = [&](std::uint32_t at, const ReachSeen& seen) { nodes_[at].cells = seen.cells; };
+    const ReachSeen seen = fold_words<ReachSeen>(words_, Layers::cells(), open_again_, see, note);
+    colors_ = {seen.cells,
+               without(neither(seen.cells, Layers::cells()), (reached_by_corners_.out | seen.reached.out) &
+                                                                 (reached_by_corners_.in | seen.reached.in))};
+    return colors_;
+}
+
+const Brick::Colors& Brick::evaluate(const Program& program, std::span<const std::uint32_t> words,
+                                     const octree::Cell& parent) {
+    BodiesInCells bodies;
+    look(program, words, parent);
+    ask(bodies);
+    bodies.finish();
+    return settle();
+}
+
+CornersSeen Brick::look_at(const Leaf& leaf, Payload payload, const octree::Cell& parent, Node& node) {
     const BrickSides box = brick_sides_of_box(leaf, parent);
-    const Layers met = without(needed, box.white);
-    for (const std::uint32_t cells : met.layer) tests_ += static_cast<std::uint64_t>(std::popcount(cells));
-    if (leaf.kind == LeafKind::box) return {{box.white, box.black}, box.corners, {box.white, box.black}};
-    if (!met.any()) return {{box.white, {}}, {box.corners.out, {}}, {box.white, {}}};
+    const Layers met = without(node.needed, box.white);
+    tests_ += static_cast<std::uint64_t>(met.count_cells());
+    if (leaf.kind == LeafKind::box) return {{box.white, box.black}, box.corners};
+    if (!met.any()) return {{box.white, {}}, {box.corners.out, {}}};
     switch (leaf.kind) {
         case LeafKind::convex:
-            return look_at_convex(payload.all ? program_->constraints_of(leaf) : payload.items, parent,
-                                  needed, box);
+            return look_at_convex(payload.all ? program_->constraints_of(leaf) : payload.items, parent, box,
+                                  node);
         case LeafKind::torus:
-            return look_at_torus(program_->tori[leaf.first], parent, needed, box);
+            return look_at_torus(program_->tori[leaf.first], parent, node.needed, box);
         default:
             return look_at_polyhedron(program_->polyhedra[leaf.first], payload, parent, box);
     }
 }
 
-BrickSeen Brick::look_at_convex(std::span<const std::uint32_t> constraints, const octree::Cell& parent,
-                                const Layers& needed, const BrickSides& box) {
-    Layers* matters = matters_.room(constraints.size());
-    BrickSeen seen{{box.white, Layers::cells()}, {box.corners.out, Layers::corners()}, {}};
-    surfaces_.clear();
+CornersSeen Brick::look_at_convex(std::span<const std::uint32_t> constraints, const octree::Cell& parent,
+                                  const BrickSides& box, Node& node) {
+    Layers* const matters = matters_.room(constraints.size());
+    BrickSurface* const surfaces = surfaces_.room(constraints.size());
+    CornersSeen seen{{box.white, Layers::cells()}, {box.corners.out, Layers::corners()}};
     bool plain = true;
-    for (const std::uint32_t id : constraints) {
-        BrickSurface surface;
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+        const std::uint32_t id = constraints[i];
         const BrickSides sides =
             ConstraintId::is_cone(id)
-                ? brick_sides(program_->quadrics[ConstraintId::index(id)], parent, surface)
-                : brick_sides(program_->planes[id], parent, surface);
+                ? brick_sides(program_->quadrics[ConstraintId::index(id)], parent, surfaces[i])
+                : brick_sides(program_->planes[id], parent, surfaces[i]);
         seen.cells = intersect(seen.cells, {sides.white, sides.black});
         seen.corners = intersect(seen.corners, sides.corners);
-        *matters = without(Layers::cells(), sides.black);
-        if (matters->any()) surfaces_.push_back(surface);
-        plain &= surface.plain;
-        ++matters;
+        matters[i] = without(Layers::cells(), sides.black);
+        plain &= surfaces[i].plain;
         // White wherever it is asked about: other constraints have nothing to add.
-        if (!without(needed, seen.cells.out).any())
-            return {{seen.cells.out, {}}, {seen.corners.out, {}}, {seen.cells.out, {}}};
+        if (!without(node.needed, seen.cells.out).any())
+            return {{seen.cells.out, {}}, {seen.corners.out, {}}};
     }
-    matters_.end_at(matters);
+    matters_.end_at(matters + constraints.size());
+    surfaces_.end_at(surfaces + constraints.size());
+    // The other nappe of a cone is no convex body.
+    node.surface_count = plain ? static_cast<std::uint32_t>(constraints.size()) : 0;
     seen.cells.in = without(seen.cells.in, seen.cells.out);
-    seen.reached = {cells_with_corner(seen.corners.out), cells_with_corner(seen.corners.in)};
-    if (plain && !surfaces_.empty()) look_past_corners(needed, seen);
     return seen;
 }
 
-/// Where no corner lies in the body, asks whether it enters the cell all the same.
-void Brick::look_past_corners(const Layers& needed, BrickSeen& seen) const {
-    const Layers asked = without(without(needed, seen.cells.out), seen.reached.in);
-    if (!asked.any()) return;
-    const BodyInCells body = body_in_cells(surfaces_, asked);
-    seen.cells.out = seen.cells.out | body.missed;
-    seen.cells.in = without(seen.cells.in, body.missed);
-    seen.reached = {seen.reached.out | body.missed, seen.reached.in | body.entered};
-}
-
-BrickSeen Brick::look_at_torus(const LatticeTorus& torus, const octree::Cell& parent, const Layers& needed,
-                               const BrickSides& box) {
-    BrickSeen seen{{box.white, {}}, brick_sides(torus, parent).corners, {}};
+CornersSeen Brick::look_at_torus(const LatticeTorus& torus, const octree::Cell& parent, const Layers& needed,
+                                 const BrickSides& box) {
+    CornersSeen seen{{box.white, {}}, brick_sides(torus, parent).corners};
     for (unsigned outer = 0; outer < 8; ++outer)
         for (unsigned inner = 0; inner < 8; ++inner) {
             const BrickCell cell = BrickCell::of(outer, inner);
@@ -96,8 +141,8 @@ BrickSeen Brick::look_at_torus(const LatticeTorus& torus, const octree::Cell& pa
     return seen;
 }
 
-BrickSeen Brick::look_at_polyhedron(const LatticePolyhedron& polyhedron, Payload payload,
-                                    const octree::Cell& parent, const BrickSides& box) {
+CornersSeen Brick::look_at_polyhedron(const LatticePolyhedron& polyhedron, Payload payload,
+                                      const octree::Cell& parent, const BrickSides& box) {
     const auto [triangles, winding] = triangles_in(polyhedron, payload, parent, all_);
     Layers* const matters = matters_.room(triangles.size());
     std::fill(matters, matters + triangles.size(), Layers{});
@@ -110,7 +155,7 @@ BrickSeen Brick::look_at_polyhedron(const LatticePolyhedron& polyhedron, Payload
     for (const std::uint32_t triangle : triangles)
         outer_met.push_back(polyhedron.octants_met(triangle, parent));
 
-    BrickSeen seen{{Layers::cells(), {}}, {box.corners.out, {}}, {}};
+    CornersSeen seen{{Layers::cells(), {}}, {box.corners.out, {}}};
     for (unsigned outer = 0; outer < 8; ++outer) {
         const octree::Cell octant = parent.child(static_cast<int>(outer));
         met_.clear();
@@ -137,7 +182,8 @@ BrickSeen Brick::look_at_polyhedron(const LatticePolyhedron& polyhedron, Payload
     return seen;
 }
 
-void Brick::prune(std::span<const std::uint32_t> words, BrickCell cell, Scratch<std::uint32_t>& buffer) {
+void Brick::prune(BrickCell cell, Scratch<std::uint32_t>& buffer) {
+    const std::span<const std::uint32_t> words = words_;
     buffer.clear();
     // As in prune.cpp.
     std::uint32_t* const room = buffer.room(2 * words.size() + matters_.size() + windings_.size() + 1);

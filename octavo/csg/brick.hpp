@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <octavo/csg/body_in_cells.hpp>
+#include <octavo/csg/brick_seen.hpp>
 #include <octavo/csg/brick_sides.hpp>
 #include <octavo/csg/fold_words.hpp>
 #include <octavo/csg/scratch.hpp>
-#include <octavo/csg/seen.hpp>
 
 // The last two levels of a descent at once: an expression in the 64 cells two levels below a cell.
 //
@@ -20,17 +20,32 @@
 // depth 8: 438 million instructions for the whole octree, 565 with one level at a time. Tried and lost: the middles of
 // the cells as more points, since what the corners leave open is nearly always white. Not tried: three levels at once,
 // where cells decided two levels up would be looked at in vain.
+//
+// A brick goes three steps, so that several can share the second: `look` evaluates its corners; `ask` asks, of each cell
+// that these leave open, whether the bodies that may enter it do; `settle` evaluates the expression again with the
+// answers.
 
 namespace octavo::csg {
 
 class Brick {
   public:
-    /// Evaluates `words`, a program restricted to `parent`, in the brick; `parent` has a side of at least 4.
-    const BrickSeen& evaluate(const Program& program, std::span<const std::uint32_t> words,
-                              const octree::Cell& parent);
+    struct Colors {
+        LayerPair cells;  ///< white and black; the rest is gray
+        Layers unproved;  ///< gray, and no two of their points prove it
+    };
+
+    /// Looks at `words`, a program restricted to `parent`, in the brick; `parent` has a side of at least 4. Program and
+    /// words must last until `settle`.
+    void look(const Program& program, std::span<const std::uint32_t> words, const octree::Cell& parent);
+    /// Answers are there after `bodies.finish`.
+    void ask(BodiesInCells& bodies);
+    const Colors& settle();
+    /// The three steps of one brick.
+    const Colors& evaluate(const Program& program, std::span<const std::uint32_t> words,
+                           const octree::Cell& parent);
 
     /// Replaces `to` by what the words last evaluated leave undecided in a cell, which must be gray.
-    void prune(std::span<const std::uint32_t> words, BrickCell cell, Scratch<std::uint32_t>& to);
+    void prune(BrickCell cell, Scratch<std::uint32_t>& to);
 
     /// Leaves tested so far, counted once for each cell of a brick that the leaf's bounding box meets.
     std::uint64_t primitive_tests() const { return tests_; }
@@ -38,26 +53,33 @@ class Brick {
   private:
     struct Node {
         LayerPair cells;
-        std::uint32_t matters, windings;  // of a leaf: where its part begins
+        // Of a leaf, not complemented: the cells that were asked about, what was seen, and the answers about its body.
+        Layers needed;
+        CornersSeen seen;
+        BodyInCells body;
+        std::uint32_t matters, windings;  // where its part begins
+        std::uint32_t surfaces, surface_count;
     };
 
-    BrickSeen look(const Leaf& leaf, Payload payload, const octree::Cell& parent, const Layers& needed);
-    BrickSeen look_at_convex(std::span<const std::uint32_t> constraints, const octree::Cell& parent,
-                             const Layers& needed, const BrickSides& box);
-    void look_past_corners(const Layers& needed, BrickSeen& seen) const;
-    BrickSeen look_at_torus(const LatticeTorus& torus, const octree::Cell& parent, const Layers& needed,
-                            const BrickSides& box);
-    BrickSeen look_at_polyhedron(const LatticePolyhedron& polyhedron, Payload payload,
-                                 const octree::Cell& parent, const BrickSides& box);
+    CornersSeen look_at(const Leaf& leaf, Payload payload, const octree::Cell& parent, Node& node);
+    CornersSeen look_at_convex(std::span<const std::uint32_t> constraints, const octree::Cell& parent,
+                               const BrickSides& box, Node& node);
+    CornersSeen look_at_torus(const LatticeTorus& torus, const octree::Cell& parent, const Layers& needed,
+                              const BrickSides& box);
+    CornersSeen look_at_polyhedron(const LatticePolyhedron& polyhedron, Payload payload,
+                                   const octree::Cell& parent, const BrickSides& box);
 
     const Program* program_ = nullptr;
-    BrickSeen result_;
+    std::span<const std::uint32_t> words_;
+    Colors colors_;
+    LayerPair reached_by_corners_;
     Scratch<Node> nodes_;
-    std::vector<OpenOperation<BrickSeen>> open_;
+    std::vector<OpenOperation<CornersSeen>> open_;
+    std::vector<OpenOperation<ReachSeen>> open_again_;
     std::vector<WrittenOperation> written_;
-    Scratch<Layers> matters_;             // the cells in which an item of a payload matters
-    Scratch<std::int32_t> windings_;      // 64 for each polyhedron
-    std::vector<BrickSurface> surfaces_;  // of the leaf that is looked at, those that cut the brick
+    Scratch<Layers> matters_;         // the cells in which an item of a payload matters
+    Scratch<std::int32_t> windings_;  // 64 for each polyhedron
+    Scratch<BrickSurface> surfaces_;  // of convex leaves, as many as items
     std::vector<std::uint32_t> all_, met_;
     std::uint64_t tests_ = 0;
 };

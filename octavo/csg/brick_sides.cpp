@@ -14,33 +14,11 @@ using Flags = std::int32_t __attribute__((vector_size(32)));
 
 // Lane k of a register is layer k; of cells, the upper four lanes are the layers again, two rows of cells further.
 constexpr Floats corner_z{0, 1, 2, 3, 4, 0, 0, 0};
-constexpr Flags corner_lanes{-1, -1, -1, -1, -1, 0, 0, 0};
 constexpr Floats cell_z{0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
 constexpr Floats cell_y{0.5F, 0.5F, 0.5F, 0.5F, 2.5F, 2.5F, 2.5F, 2.5F};
 constexpr std::uint32_t row_bits = 5;  // from one row of corners or cells to the next
 
-Layers layers_of(Flags flags) {
-    Layers layers;
-    static_assert(sizeof flags == sizeof layers.layer);
-    std::memcpy(layers.layer.data(), &flags, sizeof flags);
-    return layers;
-}
-
-/// Corners below −error and above error.
-class CornerSides {
-  public:
-    explicit CornerSides(float error) : error_(error) {}
-    void add(std::uint32_t bit, Floats value) {
-        const Flags one = corner_lanes & static_cast<std::int32_t>(1U << bit);
-        inside_ |= (value < -error_) & one;
-        outside_ |= (value > error_) & one;
-    }
-    LayerPair corners() const { return {layers_of(outside_), layers_of(inside_)}; }
-
-  private:
-    float error_;
-    Flags inside_{}, outside_{};
-};
+Layers layers_of(Flags flags) { return {std::bit_cast<Layers::Lanes>(flags)}; }
 
 bool all_known(const LayerPair& corners) { return (corners.out | corners.in) == Layers::corners(); }
 
@@ -61,8 +39,9 @@ LayerPair corners_one_by_one(const Value& value, decltype(value(0, 0, 0)) error)
     return corners;
 }
 
+/// Corners below −error and above error.
 LayerPair corners_of(const QuadricSteps& q, float error) {
-    CornerSides sides(error);
+    Flags inside{}, outside{};
     const Floats column = q.low + corner_z * (q.z + corner_z * q.zz);
     const Floats along_x = q.x + corner_z * q.xz, along_y = q.y + corner_z * q.yz;
     for (std::uint32_t j = 0; j < 5; ++j) {
@@ -70,10 +49,56 @@ LayerPair corners_of(const QuadricSteps& q, float error) {
         const Floats row = column + y * (along_y + y * q.yy), slope = along_x + y * q.xy;
         for (std::uint32_t i = 0; i < 5; ++i) {
             const auto x = static_cast<float>(i);
-            sides.add(i + row_bits * j, row + x * (slope + x * q.xx));
+            const Floats value = row + x * (slope + x * q.xx);
+            const auto one = static_cast<std::int32_t>(1U << (i + row_bits * j));
+            inside |= (value < -error) & one;
+            outside |= (value > error) & one;
         }
     }
-    return sides.corners();
+    return {layers_of(outside) & Layers::corners(), layers_of(inside) & Layers::corners()};
+}
+
+/// Two to the n, less one, in a float: a count of corners as their bits. For counts of five corners in three rows.
+class RowBits {
+  public:
+    /// The lowest corners of row j, as many as the integer part of a number from 0 to 5.
+    void add(std::uint32_t j, Floats count) {
+        const std::int32_t shift = 127 + static_cast<std::int32_t>(row_bits * (j < 3 ? j : j - 3));
+        const Flags power = (__builtin_convertvector(count, Flags) + shift) << 23;
+        (j < 3 ? low_ : high_) += std::bit_cast<Floats>(power);
+    }
+    Layers layers() const {
+        constexpr std::int32_t ones_of_two = 1 + (1 << row_bits),
+                               ones_of_three = ones_of_two + (1 << 2 * row_bits);
+        const Flags bits = (__builtin_convertvector(low_, Flags) - ones_of_three) +
+                           ((__builtin_convertvector(high_, Flags) - ones_of_two) << (3 * row_bits));
+        return layers_of(bits) & Layers::corners();
+    }
+
+  private:
+    Floats low_{}, high_{};
+};
+
+/// Along a row of corners a plane changes sides once, so where it does is all there is to know: a division for the
+/// plane instead of two comparisons for each of 125 corners. A place passes through at most twelve roundings of values
+/// in the brick, taken in steps; the error has room for 32.
+LayerPair corners_of(const PlaneSteps& p) {
+    const float turn = p.sx < 0 ? -1.0F : 1.0F;
+    // Steps are whole numbers; one in place of none changes values by less than the error, which is 2^14 at least.
+    const float scale = turn / std::max(turn * p.sx, 1.0F), error = p.error(4) * std::fabs(scale);
+    const Floats column = 1.0F - scale * (p.at_low + corner_z * p.sz);
+    RowBits inside, not_outside;
+    for (std::uint32_t j = 0; j < 5; ++j) {
+        const Floats row = column - static_cast<float>(j) * (scale * p.sy);
+        const auto clamped = [](Floats v) {
+            v = v > 0 ? v : Floats{};
+            return v < 5 ? v : Floats{} + 5;
+        };
+        inside.add(j, clamped(row - error));
+        not_outside.add(j, clamped(row + error));
+    }
+    const Layers in = inside.layers(), out = without(Layers::corners(), not_outside.layers());
+    return turn > 0 ? LayerPair{out, in} : LayerPair{in, out};
 }
 
 /// Cells in which the tangent at the middle, less `bend`, stays positive. For its rounding see point_sides.cpp.
@@ -94,12 +119,9 @@ Layers above_tangent(const QuadricSteps& q, float bend) {
             above |= (least > bend) & static_cast<std::int32_t>(1U << (i + row_bits * j));
         }
     }
-    Layers cells = layers_of(above);
-    for (std::size_t k = 0; k < 4; ++k) {
-        cells.layer[k] |= cells.layer[k + 4] << (2 * row_bits);
-        cells.layer[k + 4] = 0;
-    }
-    return cells;
+    const Layers::Lanes cells = layers_of(above).layer;
+    return Layers{cells | __builtin_shufflevector(cells, cells, 4, 5, 6, 7, 0, 1, 2, 3) << (2 * row_bits)} &
+           Layers::cells();
 }
 
 void leave_other_nappe(const NappeSteps& nappe, LayerPair& corners, Layers& missed) {
@@ -114,22 +136,35 @@ void leave_other_nappe(const NappeSteps& nappe, LayerPair& corners, Layers& miss
                     BrickCell{i, j, k}.add_to(missed);
 }
 
-/// Bits of the numbers 0 to `limit` − 1 that are below `count`.
-std::uint32_t below(std::int64_t count, std::int64_t limit) {
-    return (std::uint32_t{1} << std::clamp<std::int64_t>(count, 0, limit)) - 1;
+/// Numbers along the three axes, of the low sides of a box and then of its high sides.
+using BoxCounts = std::int32_t __attribute__((vector_size(32)));
+
+/// Bits of the numbers 0 to `limit` − 1 that are below the first of two counts, or not below the second, by axis.
+std::array<std::uint32_t, 3> not_between(BoxCounts counts, std::int32_t limit) {
+    counts = counts > 0 ? counts : BoxCounts{};
+    counts = counts < limit ? counts : BoxCounts{} + limit;
+    const auto all = static_cast<std::uint32_t>((1 << limit) - 1);
+    std::array<std::uint32_t, 3> bits;
+    for (std::size_t a = 0; a < 3; ++a) bits[a] = (all >> (limit - counts[a])) | (all & all << counts[a + 4]);
+    return bits;
 }
 
+/// Rows of five bits by the bits of a number, one a row.
+constexpr std::array<std::uint32_t, 32> rows_of_bits = [] {
+    std::array<std::uint32_t, 32> rows{};
+    for (std::uint32_t bits = 0; bits < 32; ++bits)
+        for (std::uint32_t j = 0; j < 5; ++j)
+            if (bits >> j & 1) rows[bits] |= std::uint32_t{31} << (row_bits * j);
+    return rows;
+}();
+
 /// Bits along x, y and z as layers: all that have any of them.
-Layers any_axis(const std::array<std::uint32_t, 3>& bits, std::uint32_t count) {
-    const std::uint32_t row = (std::uint32_t{1} << count) - 1;
-    std::uint32_t square = 0, full = 0;
-    for (std::uint32_t j = 0; j < count; ++j) {
-        square |= (bits[1] >> j & 1 ? row : bits[0]) << (row_bits * j);
-        full |= row << (row_bits * j);
-    }
-    Layers layers;
-    for (std::uint32_t k = 0; k < count; ++k) layers.layer[k] = bits[2] >> k & 1 ? full : square;
-    return layers;
+Layers any_axis(const std::array<std::uint32_t, 3>& bits) {
+    constexpr Flags bit_of_layer{1, 2, 4, 8, 16, 0, 0, 0};
+    constexpr std::uint32_t one_a_row = rows_of_bits[31] / 31;
+    const std::uint32_t square = bits[0] * one_a_row | rows_of_bits[bits[1]];
+    const Flags full = (static_cast<std::int32_t>(bits[2]) & bit_of_layer) != 0;
+    return Layers{layers_of(full).layer | square};
 }
 
 // Weights of tangents are products of components, so coefficients are brought to a size whose squares single precision
@@ -150,6 +185,7 @@ BrickSurface seen_from_brick(const QuadricSteps& q, float error) {
     s.low = q.low, s.x = q.x, s.y = q.y, s.z = q.z;
     s.xx = q.xx, s.yy = q.yy, s.zz = q.zz, s.xy = q.xy, s.xz = q.xz, s.yz = q.yz;
     s.error = error;
+    s.curved = true;
     const float x = q.x + 4 * q.xx + 2 * (q.xy + q.xz), y = q.y + 4 * q.yy + 2 * (q.xy + q.yz),
                 z = q.z + 4 * q.zz + 2 * (q.xz + q.yz);
     s.slope = std::sqrt(x * x + y * y + z * z);
@@ -161,14 +197,8 @@ BrickSurface seen_from_brick(const QuadricSteps& q, float error) {
 BrickSides brick_sides(const LatticePlane& plane, const octree::Cell& brick, BrickSurface& surface) {
     const PlaneSteps p(plane, brick, brick.side() / 4);
     surface = seen_from_brick(p);
-    CornerSides sides(p.error(4));
-    const Floats column = p.at_low + corner_z * p.sz;
-    for (std::uint32_t j = 0; j < 5; ++j) {
-        const Floats row = column + static_cast<float>(j) * p.sy;
-        for (std::uint32_t i = 0; i < 5; ++i) sides.add(i + row_bits * j, row + static_cast<float>(i) * p.sx);
-    }
     BrickSides result;
-    result.corners = sides.corners();
+    result.corners = corners_of(p);
     if (!all_known(result.corners))
         result.corners = corners_one_by_one(
             [&](int i, int j, int k) { return -p.low - i * p.x - j * p.y - k * p.z; }, std::int64_t{0});
@@ -217,28 +247,20 @@ BrickSides brick_sides(const LatticeTorus& torus, const octree::Cell& brick) {
 
 BrickSides brick_sides_of_box(const Leaf& leaf, const octree::Cell& brick) {
     const int shift = std::countr_zero(static_cast<std::uint32_t>(brick.side())) - 2;
-    const bool is_box = leaf.kind == LeafKind::box;
-    std::array<std::uint32_t, 3> outside{}, not_inside{}, white{}, not_black{};
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        // How many quarters the box's sides are from the low corner, rounded down and up.
-        const std::int64_t low = std::int64_t{leaf.low[a]} - brick.low[axis];
-        const std::int64_t high = std::int64_t{leaf.high[a]} - brick.low[axis];
-        const std::int64_t up = (std::int64_t{1} << shift) - 1;
-        const std::int64_t low_down = low >> shift, low_up = (low + up) >> shift;
-        const std::int64_t high_down = high >> shift, high_up = (high + up) >> shift;
-        outside[a] = below(low_up, 5) | (below(5, 5) & ~below(high_down + 1, 5));
-        white[a] = below(low_down, 4) | (below(4, 4) & ~below(high_up, 4));
-        if (!is_box) continue;
-        not_inside[a] = below(low_down + 1, 5) | (below(5, 5) & ~below(high_up, 5));
-        not_black[a] = below(low_up, 4) | (below(4, 4) & ~below(high_down, 4));
-    }
+    constexpr BoxCounts on_low{-1, -1, -1, 0, 0, 0, 0, 0}, on_high{0, 0, 0, 0, -1, -1, -1, 0};
+    const BoxCounts sides{leaf.low[0],  leaf.low[1],  leaf.low[2],  0,
+                          leaf.high[0], leaf.high[1], leaf.high[2], 0};
+    const BoxCounts corner{brick.low.x, brick.low.y, brick.low.z, 0,
+                           brick.low.x, brick.low.y, brick.low.z, 0};
+    // How many quarters the sides are from the low corner, rounded down and up.
+    const BoxCounts down = (sides - corner) >> shift, up = (sides - corner + ((1 << shift) - 1)) >> shift;
     BrickSides result;
-    result.corners.out = any_axis(outside, 5);
-    result.white = any_axis(white, 4);
-    if (!is_box) return result;
-    result.corners.in = without(Layers::corners(), any_axis(not_inside, 5));
-    result.black = without(Layers::cells(), any_axis(not_black, 4));
+    result.corners.out = any_axis(not_between((up & on_low) | ((down + 1) & on_high), 5)) & Layers::corners();
+    result.white = any_axis(not_between((down & on_low) | (up & on_high), 4)) & Layers::cells();
+    if (leaf.kind != LeafKind::box) return result;
+    result.corners.in =
+        without(Layers::corners(), any_axis(not_between(((down + 1) & on_low) | (up & on_high), 5)));
+    result.black = without(Layers::cells(), any_axis(not_between((up & on_low) | (down & on_high), 4)));
     return result;
 }
 

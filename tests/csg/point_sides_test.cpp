@@ -244,6 +244,7 @@ TEST(BodyInCells, IsNeverWrongAndSeldomSilent) {
         std::vector<LatticePlane> planes;
         std::vector<SecondOrderCone> cones;
         std::vector<BrickSurface> surfaces;
+        std::vector<Layers> matters;
         Layers open = Layers::cells();
         for (int i = 1 + random.below(10); i > 0; --i) {
             BrickSurface surface;
@@ -260,32 +261,36 @@ TEST(BodyInCells, IsNeverWrongAndSeldomSilent) {
                 }
             }
             surfaces.push_back(surface);
+            matters.push_back(without(Layers::cells(), sides.black));
             open = without(open, sides.white);
         }
         if (surfaces.empty()) continue;
         std::vector<const SecondOrderCone*> cone_pointers;
         for (const SecondOrderCone& cone : cones) cone_pointers.push_back(&cone);
-        const BodyInCells body = body_in_cells(surfaces, open);
+        BodyInCells body;
+        BodiesInCells bodies;
+        for_each_cell(open, [&](BrickCell cell) { bodies.ask(surfaces, matters.data(), cell, body); });
+        bodies.finish();
         EXPECT_FALSE((body.missed & body.entered).any());
         EXPECT_FALSE(without(body.missed | body.entered, open).any());
         const std::int32_t side = brick.side() / 4;
-        while (const std::optional<BrickCell> next = take_first(open)) {
+        for_each_cell(open, [&](BrickCell next) {
             const auto at = [&](std::int32_t low, std::uint32_t steps) {
                 return low + side * static_cast<std::int32_t>(steps);
             };
-            const Cell cell{{at(brick.low.x, next->x), at(brick.low.y, next->y), at(brick.low.z, next->z)},
+            const Cell cell{{at(brick.low.x, next.x), at(brick.low.y, next.y), at(brick.low.z, next.z)},
                             brick.level + 2};
             const Overlap truth = overlap(cell, planes, cone_pointers);
             ++asked;
-            if (next->in(body.missed)) {
+            if (next.in(body.missed)) {
                 ++missed;
                 EXPECT_NE(truth, Overlap::meets);
             }
-            if (next->in(body.entered)) {
+            if (next.in(body.entered)) {
                 ++entered;
                 EXPECT_NE(truth, Overlap::apart);
             }
-        }
+        });
     }
     EXPECT_GT(missed, asked / 50);
     EXPECT_GT(entered, asked / 10);
@@ -297,9 +302,14 @@ TEST(Layers, MortonOrderIsThatOfOctants) {
         for (unsigned inner = 0; inner < 8; ++inner) {
             Layers cells;
             BrickCell::of(outer, inner).add_to(cells);
-            EXPECT_EQ(in_morton_order(cells), std::uint64_t{1} << (8 * outer + inner));
+            const std::uint64_t bit = std::uint64_t{1} << (8 * outer + inner);
+            const InMortonOrder one(cells, without(Layers::cells(), cells));
+            EXPECT_EQ(one.first, bit);
+            EXPECT_EQ(one.second, ~bit);
         }
-    EXPECT_EQ(in_morton_order(Layers::corners()), ~std::uint64_t{0}) << "bits that are no cells do not count";
+    const InMortonOrder all(Layers::corners(), Layers{});
+    EXPECT_EQ(all.first, ~std::uint64_t{0}) << "bits that are no cells do not count";
+    EXPECT_EQ(all.second, 0U);
 }
 
 /// Two levels at once say nothing else than one level after the other: where both decide they agree, and a cell with
@@ -321,8 +331,8 @@ TEST(Brick, AgreesWithOneLevelAfterTheOther) {
         if (program->words.empty()) continue;
         const Cell cell = random_cell(random, 0, 3);
         Brick brick;
-        const BrickSeen seen = brick.evaluate(*program, program->words, cell);
-        const Layers both = without(seen.gray(), seen.unproved());
+        const Brick::Colors seen = brick.evaluate(*program, program->words, cell);
+        const Layers both = without(neither(seen.cells, Layers::cells()), seen.unproved);
         for (unsigned outer = 0; outer < 8; ++outer) {
             Pruner pruner;
             const Cell octant = cell.child(static_cast<int>(outer));
