@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "to_stderr.hpp"
+
 namespace octavo::cli {
 namespace {
 
@@ -23,7 +25,7 @@ void ProgressBar::show(std::string_view phase, double done) {
     if (now - start_ < patience) return;
     const bool new_phase = phase != phase_;
     if (style_ == ProgressStyle::plain) {
-        if (new_phase) fmt::print(stderr, "octavo: {} …\n", phase);
+        if (new_phase) to_stderr(fmt::format("octavo: {} …\n", phase));
     } else if (new_phase || now - drawn_ >= between_draws || done >= 1) {
         draw(phase, std::clamp(done, 0.0, 1.0), now);
     }
@@ -35,8 +37,8 @@ void ProgressBar::draw(std::string_view phase, double done, Clock::time_point no
     std::string bar;
     for (int i = 0; i < bar_width; ++i) bar += i < filled ? "█" : "░";
     const double elapsed = std::chrono::duration<double>(now - start_).count();
-    fmt::print(stderr, "\r\x1b[K{}{:<22.22}{} {} {:3.0f} %  {:.1f} s", colored_ ? "\x1b[36m" : "", phase,
-               colored_ ? "\x1b[0m" : "", bar, done * 100, elapsed);
+    to_stderr(fmt::format("\r\x1b[K{}{:<22.22}{} {} {:3.0f} %  {:.1f} s", colored_ ? "\x1b[36m" : "", phase,
+                          colored_ ? "\x1b[0m" : "", bar, done * 100, elapsed));
     std::fflush(stderr);
     visible_ = true;
     drawn_ = now;
@@ -44,7 +46,7 @@ void ProgressBar::draw(std::string_view phase, double done, Clock::time_point no
 
 void ProgressBar::clear() {
     const std::lock_guard lock(mutex_);
-    if (visible_) fmt::print(stderr, "\r\x1b[K");
+    if (visible_) to_stderr("\r\x1b[K");
     visible_ = false;
 }
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "file_faces.hpp"
+#include "to_stderr.hpp"
 
 namespace octavo::cli {
 namespace {
@@ -75,7 +76,7 @@ int Session::finish(Result<ExitCode> outcome) {
     }
     // What does not fit the buffer is written before; that it failed is remembered, flushing then succeeds.
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-        fmt::print(stderr, "octavo: cannot write to stdout\n");
+        to_stderr("octavo: cannot write to stdout\n");
         return static_cast<int>(ExitCode::bad_input);
     }
     return static_cast<int>(exit_code_of(outcome));
@@ -100,12 +101,13 @@ void Session::print_messages(const Result<ExitCode>& outcome) const {
     const bool colored = wants_color(options.color, STDERR_FILENO);
     if (!options.quiet)
         for (const std::string& warning : warnings_)
-            fmt::print(stderr, "octavo: {}warning:{} {}\n", colored ? "\x1b[33m" : "",
-                       colored ? "\x1b[0m" : "", warning);
+            to_stderr(fmt::format("octavo: {}warning:{} {}\n", colored ? "\x1b[33m" : "",
+                                  colored ? "\x1b[0m" : "", warning));
     if (!outcome)
-        fmt::print(stderr, "octavo: {}error:{} {}\n", colored ? "\x1b[31m" : "", colored ? "\x1b[0m" : "",
-                   outcome.error().describe());
-    if (usage_is_wrong_) fmt::print(stderr, "Try: octavo {}--help\n", command.empty() ? "" : command + " ");
+        to_stderr(fmt::format("octavo: {}error:{} {}\n", colored ? "\x1b[31m" : "", colored ? "\x1b[0m" : "",
+                              outcome.error().describe()));
+    if (usage_is_wrong_)
+        to_stderr(fmt::format("Try: octavo {}--help\n", command.empty() ? "" : command + " "));
 }
 
 void Session::print_json(const Result<ExitCode>& outcome) const {

@@ -188,6 +188,26 @@ TEST_F(Conventions, WhatStdoutDidNotTakeIsToldHoweverLongItIs) {
     }
 }
 
+TEST_F(Conventions, WhatStderrDoesNotTakeChangesNothing) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    write("points.xyz", "0 0 0\nnan 0 0\n");
+    for (const char* redirection : {"2>&-", "2>/dev/full"}) {
+        EXPECT_EQ(shell(std::string("$octavo info nowhere.stl ") + redirection).exit_code, 3) << redirection;
+        EXPECT_EQ(shell(std::string("$octavo bogus ") + redirection).exit_code, 2) << redirection;
+        const Ran warned =
+            shell(std::string("$octavo contains cube.off points.xyz --json --progress plain ") + redirection);
+        EXPECT_TRUE(warned.json().is_object()) << redirection << warned.out;
+    }
+}
+
+TEST_F(Conventions, AMessageNeverGoesIntoAFileThatIsOpenedInStderrsPlace) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    ASSERT_EQ(octavo("convert cube.off quiet.obj").exit_code, 0);
+    ASSERT_EQ(shell("$octavo convert cube.off closed.obj --progress plain <&- >&- 2>&-").exit_code, 3)
+        << "its summary had no place";
+    EXPECT_EQ(read("closed.obj"), read("quiet.obj"));
+}
+
 TEST_F(Conventions, MeshesGoThroughPipes) {
     const Ran ran =
         shell("$octavo shape cube -o cube.off -q && cat cube.off | $octavo convert - - --from off --to obj");
