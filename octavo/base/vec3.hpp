@@ -62,6 +62,8 @@ struct Affine {
                m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
     }
+    /// Whether the determinant is negative, decided without rounding.
+    bool mirrors() const;
     friend bool operator==(const Affine&, const Affine&) = default;
 };
 

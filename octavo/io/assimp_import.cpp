@@ -80,7 +80,7 @@ class SceneReader {
                 return Error{ErrorCode::bad_input, "a coordinate is not a finite number", {}};
             index.push_back(welder_.add(welder_.prepare(point.x, point.y, point.z)));
         }
-        const bool mirrors = transform.determinant() < 0;
+        const bool mirrors = transform.mirrors();
         std::vector<mesh::VertexIndex> corners;
         for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
             const aiFace& face = mesh.mFaces[i];

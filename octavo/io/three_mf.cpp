@@ -157,7 +157,7 @@ class Assembler {
             if (!is_finite(point)) return bad("a transform moves a vertex beyond the range of numbers");
             result_.vertices.push_back(point);
         }
-        const bool mirrors = transform.determinant() < 0;
+        const bool mirrors = transform.mirrors();
         for (mesh::Triangle triangle : object.data->triangles) {
             if (mirrors) std::swap(triangle[1], triangle[2]);
             for (mesh::VertexIndex& corner : triangle) corner += static_cast<mesh::VertexIndex>(first);

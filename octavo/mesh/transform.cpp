@@ -10,7 +10,7 @@ namespace octavo::mesh {
 Mesh transform(const Mesh& mesh, const Affine& map) {
     Mesh result = mesh;
     for (Vec3& vertex : result.vertices) vertex = map(vertex);
-    return map.determinant() < 0 ? flipped(std::move(result)) : result;
+    return map.mirrors() ? flipped(std::move(result)) : result;
 }
 
 Mesh flipped(Mesh mesh) {
