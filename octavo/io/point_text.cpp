@@ -48,11 +48,12 @@ class PointTextReader {
     /// Takes the next line apart by `separator_`, where blank means any run of blanks.
     void split_line() {
         line_ = scanner_.rest_of_line();
+        line_ = line_.substr(0, line_.find('#'));
         split();
     }
     void split() {
         fields_.clear();
-        std::string_view rest = line_.substr(0, line_.find('#'));
+        std::string_view rest = line_;
         while (!rest.empty() && TextScanner::is_space(rest.back())) rest.remove_suffix(1);
         if (separator_ == ' ') {
             TextScanner words(rest);

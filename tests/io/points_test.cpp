@@ -32,8 +32,9 @@ TEST(PointText, ReadsAnySeparatorWithOrWithoutNames) {
     for (const char* text :
          {"1,2.5,-3e-5\n4,5,6\n", "1;2.5;-3e-5\n4;5;6", "1 2.5 -3e-5\n4  5\t6\n",
           "1\t2.5\t-3e-5\r\n4\t5\t6\r\n", "x,y,z\n1,2.5,-3e-5\n4,5,6\n", "a b c\n1 2.5 -3e-5\n4 5 6",
-          "# head\n\n 1 , 2.5 , -3e-5 # tail\n\n#\n4,5,6\n", "1,2.5,-3e-5,7\n4,5,6,\n",
-          "\xef\xbb\xbfx;y;z\n1;2.5;-3e-5\n4;5;6", "\"x\",\"y\",\"z\"\n\"1\",\"2.5\",\"-3e-5\"\n4,5,6\n"})
+          "# head\n\n 1 , 2.5 , -3e-5 # tail\n\n#\n4,5,6\n", "1 2.5 -3e-5 # left, right; front\n4 5 6\n",
+          "1,2.5,-3e-5,7\n4,5,6,\n", "\xef\xbb\xbfx;y;z\n1;2.5;-3e-5\n4;5;6",
+          "\"x\",\"y\",\"z\"\n\"1\",\"2.5\",\"-3e-5\"\n4,5,6\n"})
         EXPECT_EQ(points_in(text), two_points) << text;
 }
 
