@@ -54,9 +54,13 @@ Result<SolidFacets> closed_facets(mesh::LatticeMesh mesh, classic::OpenPolicy po
     if (!open.empty()) {
         if (policy == classic::OpenPolicy::reject) return open_error(mesh, open);
         report.open_facets = classic::open_surface_error(open).place.faces;
+        const std::size_t given = mesh.triangles.size();
         mesh = classic::close_holes(mesh, open);
         facets = classic::facets_of(mesh);
         if (!facets) return facets.error();
+        // What closes a hole goes by the facet at its first open edge: the caller's mesh has no other.
+        for (classic::Facet& facet : *facets)
+            if (facet.source >= given) facet.source = report.open_facets.front();
     }
     if (mesh::exact_volume6(mesh) == 0 && !mesh.triangles.empty()) {
         Error error{ErrorCode::not_a_solid,

@@ -313,6 +313,32 @@ TEST(Build, RefusesWhatIsNoSolidAndNamesFacets) {
     EXPECT_GT(solid.filled_volume, 0.8 * (2 * one - lens));
 }
 
+TEST(Build, NamesOnlyFacetsOfTheMeshWhereClosingAHoleMakesItOverlap) {
+    Mesh box{{{0, 0, 0},
+              {10, 0, 0},
+              {0, 10, 0},
+              {10, 10, 0},
+              {-8, 7.5, 1.6},
+              {9.9, 6, 3.4},
+              {4.2, 18, 12.3},
+              {15, 3, 8.8}},
+             {},
+             {}};
+    for (const auto& [a, b, c, d] : {std::array{0u, 2u, 3u, 1u},
+                                     {0u, 1u, 5u, 4u},
+                                     {2u, 6u, 7u, 3u},
+                                     {0u, 4u, 6u, 2u},
+                                     {1u, 3u, 7u, 5u}}) {
+        box.triangles.push_back({a, b, c});
+        box.triangles.push_back({a, c, d});
+    }
+    const Result<Built> refused =
+        build(std::span(&box, 1), {.level = 5, .open = classic::OpenPolicy::winding});
+    ASSERT_FALSE(refused);
+    EXPECT_FALSE(refused.error().place.faces.empty());
+    for (const std::uint32_t face : refused.error().place.faces) EXPECT_LT(face, box.triangles.size());
+}
+
 TEST(Build, SeesOverlapsWhoseWallsLieOnTheGrid) {
     const Mesh doubled = joined(mesh::box({0, 0, 0}, {2, 2, 2}), mesh::box({1, 0, 0}, {3, 2, 2}));
     const Result<Built> refused = build(std::span(&doubled, 1), {.precision = 1});
