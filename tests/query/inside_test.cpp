@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <filesystem>
+#include <iostream>
 #include <limits>
 #include <random>
 #include <vector>
@@ -276,6 +279,29 @@ TEST(InsideQuery, AgreesWithRationalRaysOnRealModels) {
         expect_answers_of_the_oracle(mesh, telling_points(mesh, count, 3), 120);
         ASSERT_FALSE(HasFailure()) << name;
     }
+}
+
+TEST(InsideQuery, AgreesWithRationalRaysOnEveryModelThatIsClosed) {
+    if (tests::effort() < 10) GTEST_SKIP() << "set OCTAVO_TEST_EFFORT to 10 or more";
+    OCTAVO_NEEDS_MODEL("classic");
+    std::size_t models = 0, answers = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(tests::models_folder())) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".ply" && extension != ".obj" && extension != ".off" && extension != ".stl")
+            continue;
+        const Result<io::ReadMesh> read = io::read_mesh(entry.path().string());
+        ASSERT_TRUE(read) << entry.path();
+        const mesh::LatticeMesh mesh = mesh::snap(read->mesh)->mesh;
+        if (!InsideQuery::build(mesh)) continue;  // open
+        // The oracle looks at all facets for every point: few points on a large model, many on a small one.
+        const std::size_t looks = 1'000'000u * static_cast<std::size_t>(tests::effort());
+        const std::size_t count = std::clamp<std::size_t>(looks / mesh.triangles.size(), 30, 3000);
+        const Tally tally = expect_answers_of_the_oracle(mesh, telling_points(mesh, count, 7), 120);
+        ASSERT_FALSE(HasFailure()) << entry.path();
+        ++models, answers += tally.inside + tally.on + tally.outside;
+    }
+    std::cout << answers << " answers on " << models << " closed models\n";
+    EXPECT_GE(answers, 100'000u);
 }
 
 }  // namespace
