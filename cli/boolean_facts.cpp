@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "boolean_facts.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <regex>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -16,16 +17,34 @@
 namespace octavo::cli {
 namespace {
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Where the first number after "operand " or "operands " stands, else npos.
+std::size_t operand_number(std::string_view sentence) {
+    const std::string_view word = "operand";
+    for (std::size_t at = sentence.find(word); at != sentence.npos; at = sentence.find(word, at + 1)) {
+        std::size_t end = at + word.size();
+        if (end < sentence.size() && sentence[end] == 's') ++end;
+        if (end + 1 < sentence.size() && sentence[end] == ' ' && is_digit(sentence[end + 1])) return end + 1;
+    }
+    return sentence.npos;
+}
+
 /// A warning of the library, which says "operand 1" and "operands 0, 2", with names instead.
 std::string with_names(const std::string& sentence, const std::vector<std::string>& names) {
-    static const std::regex numbers("operands? ([0-9]+(, [0-9]+)*)"), number("[0-9]+");
-    std::smatch found;
-    if (names.empty() || !std::regex_search(sentence, found, numbers)) return sentence;
-    const std::string list = found[1];
-    std::string named;
-    for (std::sregex_iterator at(list.begin(), list.end(), number), end; at != end; ++at)
-        named += (named.empty() ? "" : ", ") + names.at(std::stoul(at->str()));
-    return found.prefix().str() + named + found.suffix().str();
+    const std::size_t first = operand_number(sentence);
+    if (names.empty() || first == std::string::npos) return sentence;
+    std::string named = sentence.substr(0, sentence.rfind("operand", first));
+    for (std::size_t at = first;;) {
+        std::size_t end = at;
+        while (end < sentence.size() && is_digit(sentence[end])) ++end;
+        named += names.at(std::stoul(sentence.substr(at, end - at)));
+        const bool more =
+            sentence.compare(end, 2, ", ") == 0 && end + 2 < sentence.size() && is_digit(sentence[end + 2]);
+        if (!more) return named + sentence.substr(end);
+        named += ", ";
+        at = end + 2;
+    }
 }
 
 std::optional<double> parse_length(const std::string& text) {
