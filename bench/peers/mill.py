@@ -7,7 +7,8 @@ usage: mill.py --octavo PROGRAM [--frequency N] [--radius R] [--steps N] [--mani
 PROGRAM is octavo_mill_scene (preset bench), which makes the workpiece, the tool and the path. Manifold is measured where
 the PyPI package manifold3d is installed: it subtracts the moved tool from what the step before left, as whole meshes, and
 its result is forced at each step. It does the first N steps only (default 40), since its steps cost the same from the first
-to the last. Times are user CPU milliseconds of one thread; compare volumes only when both did all steps.
+to the last. Times are user CPU milliseconds of one thread; compare volumes only when both did all steps. The commit is that
+of the sources; build them before.
 """
 import argparse
 import csv
@@ -21,6 +22,7 @@ import tempfile
 
 import numpy
 
+from boolean import commit
 from off_file import read_off
 
 
@@ -78,6 +80,8 @@ def main():
             rows[-1].update(radius=arguments.radius)
         except ImportError:
             print("manifold3d is not installed: left out", file=sys.stderr)
+    for row in rows:
+        row["commit"] = commit()
     file = open(arguments.csv, "a") if arguments.csv else sys.stdout
     writer = csv.DictWriter(file, rows[0].keys())
     if not arguments.csv or file.tell() == 0:
