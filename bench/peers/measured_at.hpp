@@ -22,7 +22,12 @@ inline std::string line_of(const std::string& command) {
     return text.substr(0, text.find('\n'));
 }
 
-/// "commit 1234abcd, 2026-11-22, g++ 12.2.0, load 0.9": the commit of the sources, with "-dirty" when they were changed.
+/// The commit of the sources, with "-dirty" when they were changed.
+inline std::string commit_of(const std::string& sources) {
+    return line_of("git -C '" + sources + "' describe --always --dirty --abbrev=8 2>/dev/null");
+}
+
+/// "commit 1234abcd, 2026-11-22, g++ 12.2.0, load 0.9".
 inline std::string measured_at(const std::string& sources) {
     std::array<char, 32> date{};
     const std::time_t now = std::time(nullptr);
@@ -30,8 +35,7 @@ inline std::string measured_at(const std::string& sources) {
     std::array<double, 1> load{};
     std::array<char, 32> busy{};
     if (getloadavg(load.data(), 1) == 1) std::snprintf(busy.data(), busy.size(), ", load %.1f", load[0]);
-    return "commit " + line_of("git -C '" + sources + "' describe --always --dirty --abbrev=8 2>/dev/null") +
-           ", " + date.data() + ", compiler " + __VERSION__ + busy.data();
+    return "commit " + commit_of(sources) + ", " + date.data() + ", compiler " + __VERSION__ + busy.data();
 }
 
 }  // namespace octavo::bench

@@ -184,20 +184,27 @@ TEST(SetOperations, LongChainsStayExactAndSmall) {
     std::vector<BspOctree> bites;
     MeshOptions trusting;
     trusting.surface = SurfaceCheck::trust;
+    std::size_t most_bytes = 0;
     for (int step = 0; step < 500; ++step) {
         const BspOctree bite =
             octree_of(moved(tool, {at(random), at(random), at(random)}), trusting, tests::small_lattice(16));
         bites.push_back(*solid.intersect(bite));
         solid = *solid.subtract(bite);
+        EXPECT_LE(solid.stats().deepest, 12) << step;
+        most_bytes = std::max(most_bytes, solid.store().bytes());
         if (step % 50 == 49) solid = solid.compacted();
     }
     double removed = 0;
     for (const BspOctree& bite : bites) removed += measure(bite).volume;
     tests::expect_solid(solid, 16 * 16 * 16 - removed, "after 500 cuts");
+    const std::size_t bytes = solid.compacted().store().bytes();
     for (std::size_t i = bites.size(); i-- > 0;) {
         solid = *solid.unite(bites[i]);
+        EXPECT_LE(solid.stats().deepest, 12) << i;
+        most_bytes = std::max(most_bytes, solid.store().bytes());
         if (i % 50 == 0) solid = solid.compacted();
     }
+    EXPECT_LT(most_bytes, 8 * bytes) << "old versions are thrown away";
     expect_same(solid, start, "after putting all back");
     EXPECT_LE(solid.stats().bsp_nodes, 100U);
     EXPECT_LE(solid.stats().deepest, 3);
