@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <octavo/boolean/evaluate.hpp>
+#include <octavo/io/read.hpp>
+
+#include "bsp_octree/solid_cases.hpp"
+#include "effort.hpp"
+#include "models.hpp"
+
+// Set operations on the pairs of real models that are there: BSP-octrees and boolean/ must give the same solid. Both get
+// the vertices that are on the joint lattice; what is compared are measures, which boolean/ has of rounded vertices.
+
+namespace octavo::bsp_octree {
+namespace {
+
+/// Triangles of the largest pair that is tried.
+std::size_t most_triangles() { return 4000u * static_cast<std::size_t>(tests::effort()); }
+
+std::optional<mesh::Mesh> model(const std::filesystem::path& path) {
+    Result<io::ReadMesh> read = io::read_mesh(path.string());
+    if (!read || read->mesh.triangles.size() > most_triangles()) return {};
+    return std::move(read->mesh);
+}
+
+/// Files whose names end in -a and -b.
+std::vector<std::pair<std::filesystem::path, std::filesystem::path>> pairs_in(
+    const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    if (std::filesystem::exists(folder))
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> pairs;
+    for (const auto& first : files)
+        for (const auto& second : files) {
+            const std::string a = first.stem().string(), b = second.stem().string();
+            if (a.size() > 2 && a.substr(a.size() - 2) == "-a" && b == a.substr(0, a.size() - 1) + "b")
+                pairs.emplace_back(first, second);
+        }
+    return pairs;
+}
+
+class Pair {
+  public:
+    Pair(std::string name, std::array<mesh::Mesh, 2> operands)
+        : name_(std::move(name)), operands_(std::move(operands)) {
+        Box3 bounds;
+        for (const mesh::Mesh& mesh : operands_) bounds.add(mesh.bounds());
+        lattice_ = *exact::Lattice::fit(bounds);
+        for (mesh::Mesh& mesh : operands_)
+            for (Vec3& vertex : mesh.vertices) vertex = lattice_.to_world(lattice_.snap(vertex));
+    }
+
+    /// Compares union, intersection and differences; false when an operand is no solid.
+    bool compare() const {
+        const Result<Built> first = build(operands_[0], lattice_), second = build(operands_[1], lattice_);
+        if (!first || !second) return false;
+        // Surfaces that meet themselves are resolved first, and their new vertices rounded to the lattice.
+        const bool rounded = first->report.resolved || second->report.resolved;
+        const mesh::Mesh swapped[] = {operands_[1], operands_[0]};
+        check(first->octree.unite(second->octree), boolean::unite(operands_), rounded, "union");
+        check(first->octree.intersect(second->octree), boolean::intersect(operands_), rounded,
+              "intersection");
+        check(first->octree.subtract(second->octree), boolean::subtract(operands_), rounded, "A - B");
+        check(second->octree.subtract(first->octree), boolean::subtract(swapped), rounded, "B - A");
+        return true;
+    }
+
+  private:
+    void check(const Result<BspOctree>& ours, const Result<boolean::Evaluated>& theirs, bool rounded,
+               const std::string& operation) const {
+        const std::string what = name_ + ", " + operation;
+        ASSERT_TRUE(ours && theirs) << what;
+        const mesh::Measures expected = mesh::measure(theirs->mesh), found = measure(*ours);
+        const double side = std::ldexp(lattice_.unit(), exact::coordinate_bits);
+        const double area = std::max(expected.area, found.area);
+        const double volume_off = rounded ? 4 * lattice_.unit() * area : 1e-12 * side * area;
+        EXPECT_NEAR(found.volume, expected.volume, volume_off) << what;
+        EXPECT_NEAR(found.area, expected.area, (rounded ? 1e-5 : 1e-9) * area) << what;
+        const Result<ToMesh> mesh = to_mesh(*ours);
+        ASSERT_TRUE(mesh) << what;
+        EXPECT_EQ(tests::manifold_defect(mesh->mesh), "") << what;
+        EXPECT_NEAR(mesh::measure(mesh->mesh).volume, expected.volume, volume_off) << what;
+    }
+
+    std::string name_;
+    std::array<mesh::Mesh, 2> operands_;
+    exact::Lattice lattice_;
+};
+
+TEST(Pairs, OfModelsGiveWhatBooleansGive) {
+    const auto pairs = pairs_in(tests::models_folder() / "boolean-pairs");
+    if (pairs.empty()) GTEST_SKIP() << "there are no models on this machine (set OCTAVO_MODELS)";
+    int compared = 0;
+    for (const auto& [first, second] : pairs) {
+        std::optional<mesh::Mesh> a = model(first), b = model(second);
+        if (!a || !b) continue;
+        const bool is_solid = Pair(first.stem().string(), {std::move(*a), std::move(*b)}).compare();
+        if (is_solid)
+            ++compared;
+        else
+            std::printf("%s: an operand is no solid\n", first.stem().c_str());
+    }
+    EXPECT_GE(compared, 5);
+    std::printf("%d pairs compared\n", compared);
+}
+
+}  // namespace
+}  // namespace octavo::bsp_octree
