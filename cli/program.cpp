@@ -28,6 +28,7 @@ constexpr const char* footer =
     "\n"
     "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad input, 4 a limit was reached, 5 internal error, "
     "130 interrupted.\n"
+    "repair ends with 0 when it has written a file, solid or not: see \"valid\" of --json.\n"
     "\n"
     "Help on one verb: octavo VERB --help. The manual: octavo man | man -l -";
 

@@ -29,6 +29,20 @@ Json steps_of(const mesh::RepairReport& report, const io::ReadMesh& read) {
     return steps;
 }
 
+/// What helps where repair does not; empty where nothing is left, or nothing known helps.
+std::string advice_for(const mesh::Report& report, const std::string& file) {
+    if (report.solid) return "";
+    const std::string beginning = "what was written bounds no solid";
+    if (report.count(mesh::ProblemKind::empty) > 0) return beginning;
+    if (report.count(mesh::ProblemKind::open_edges) > 0)
+        return beginning +
+               "; octree, contains, distance, hexmesh and set operations close holes with --open winding";
+    if (report.oriented)
+        return fmt::format("{}; octavo union {} -o FILE makes the surface anew where it meets itself",
+                           beginning, file == "-" ? "IN" : file);
+    return beginning + "; octavo check --json lists the facets";
+}
+
 Result<ExitCode> repair(Session& session, const RepairOptions& options) {
     const Context context = session.context();
     const Result<std::string> format =
@@ -48,6 +62,7 @@ Result<ExitCode> repair(Session& session, const RepairOptions& options) {
     Result<io::WriteReport> written = write_mesh(session, context, options.output, repaired->mesh, writing);
     if (!written) return std::move(written).error();
     warn_of_losses(session, *read, *format);
+    if (const std::string advice = advice_for(*after, options.output); !advice.empty()) session.warn(advice);
 
     session.result = json_of(*after);
     session.result["repairs"] = steps_of(repaired->report, *read);

@@ -3,7 +3,7 @@
 #include <array>
 #include <numeric>
 
-#include <octavo/base/grouped.hpp>
+#include <octavo/base/counted.hpp>
 #include <octavo/mesh/repair.hpp>
 #include <octavo/mesh/repair_steps.hpp>
 #include <octavo/mesh/topology.hpp>
@@ -18,7 +18,7 @@ struct Wording {
     const char* many;
 };
 
-constexpr std::array<Wording, 10> wordings{{
+constexpr std::array<Wording, 11> wordings{{
     {"merged_vertices", "vertex was merged with another at the same place",
      "vertices were merged with others at the same place"},
     {"dropped_collapsed_facets", "facet that named a vertex twice was dropped",
@@ -27,6 +27,8 @@ constexpr std::array<Wording, 10> wordings{{
      "facets that repeated others were dropped"},
     {"dropped_inner_walls", "facet of a wall without thickness inside the solid was dropped",
      "facets of walls without thickness inside the solid were dropped"},
+    {"dropped_flaps", "facet of a flap without thickness was dropped",
+     "facets of flaps without thickness were dropped"},
     {"flipped_edges", "facet without area was resolved by flipping its long side",
      "facets without area were resolved by flipping their long sides"},
     {"turned_facets", "facet was turned over to agree with its neighbours",
@@ -47,8 +49,8 @@ void note(RepairReport& report, RepairKind kind, RepairDone done) {
     std::sort(done.faces.begin(), done.faces.end());
     done.faces.erase(std::unique(done.faces.begin(), done.faces.end()), done.faces.end());
     const Wording& wording = wording_of(kind);
-    report.steps.push_back({kind, done.count, std::move(done.faces),
-                            grouped(done.count) + " " + (done.count == 1 ? wording.one : wording.many)});
+    report.steps.push_back(
+        {kind, done.count, std::move(done.faces), counted(done.count, wording.one, wording.many)});
 }
 
 /// The lattice position of every used vertex.
@@ -110,6 +112,11 @@ Result<Repaired> repair(const Mesh& mesh, const Context& context) {
         soup.origin.resize(soup.triangles.size());
         std::iota(soup.origin.begin(), soup.origin.end(), FaceIndex{0});
     }
+    const auto goes_on = [&](double done) {
+        context.report("repair", done);
+        return !context.cancelled();
+    };
+    if (!goes_on(0.1)) return Context::cancelled_error();
     RepairDone merged{mesh.vertices.size() - soup.vertices.size(), {}};
     const Status snapped = snap_used(soup);
     if (!snapped) return snapped.error();
@@ -117,15 +124,21 @@ Result<Repaired> repair(const Mesh& mesh, const Context& context) {
     RepairReport later;
     note(later, RepairKind::dropped_collapsed_facets, drop_collapsed_facets(soup));
     note(later, RepairKind::dropped_duplicate_facets, drop_duplicate_facets(soup));
-    note(later, RepairKind::dropped_inner_walls, drop_inner_walls(soup));
+    if (!goes_on(0.2)) return Context::cancelled_error();
+    RepairDone flaps;
+    note(later, RepairKind::dropped_inner_walls, drop_walls(soup, flaps));
+    note(later, RepairKind::dropped_flaps, std::move(flaps));
+    if (!goes_on(0.3)) return Context::cancelled_error();
     note(later, RepairKind::flipped_edges, flip_needles(soup));
-    if (context.cancelled()) return Context::cancelled_error();
+    if (!goes_on(0.5)) return Context::cancelled_error();
     std::vector<bool> mixed;
     note(later, RepairKind::turned_facets, orient_neighbours(soup, mixed));
+    if (!goes_on(0.6)) return Context::cancelled_error();
     RepairDone doubled;
     RepairDone separated = separate_edges(soup, doubled);
-    if (context.cancelled()) return Context::cancelled_error();
+    if (!goes_on(0.8)) return Context::cancelled_error();
     RepairDone turned = turn_shells(soup, mixed);
+    if (!goes_on(1)) return Context::cancelled_error();
 
     note(report, RepairKind::merged_vertices, std::move(merged));
     report.steps.insert(report.steps.end(), later.steps.begin(), later.steps.end());

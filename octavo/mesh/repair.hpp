@@ -12,13 +12,13 @@
 
 // Mends what can be mended without guessing, and says what it did.
 //
-// No vertex moves, no hole is filled and nothing is cut: the surface stays the same set of points, but for walls
-// of no thickness inside a solid. In this order:
+// No vertex moves, no hole is filled and nothing is cut: the surface stays the same set of points, but for walls and flaps
+// of no thickness. Wherever it is closed, every point keeps its winding number but for what is turned. In this order:
 //
 //  1. Vertices at bit-equal positions become one; facets that then name a vertex twice are dropped.
-//  2. Of facets with the same corners the same way round, one stays. Facets back to back cancel where they are a wall
-//     inside (every edge of the wall's rim has other facets); sheets that are double-sided as a whole stay, as no one
-//     knows what they mean.
+//  2. Of facets with the same corners the same way round, one stays. Facets back to back cancel where other facets
+//     go on at every edge of the wall's rim (a wall inside) or at some (a flap, the commonest defect of parts for
+//     printing) and stay closed without it; sheets that are double-sided as a whole stay, as no one knows what they mean.
 //  3. A facet without area is a vertex on the long side of its neighbour: the side is flipped, which splits the
 //     neighbour at the vertex and opens nothing. Where that side has no or several neighbours the facet stays.
 //  4. Facets are turned so that neighbours agree, as few as possible; surfaces with one side only stay.
@@ -36,6 +36,7 @@ enum class RepairKind : std::uint8_t {
     dropped_collapsed_facets,  ///< they named a vertex twice
     dropped_duplicate_facets,
     dropped_inner_walls,  ///< facets that were back to back
+    dropped_flaps,        ///< likewise, with a rim where no other facet is
     flipped_edges,        ///< at facets without area
     turned_facets,
     separated_edges,

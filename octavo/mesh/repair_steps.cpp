@@ -6,13 +6,12 @@
 #include <octavo/exact/plane.hpp>
 #include <octavo/mesh/disjoint_sets.hpp>
 #include <octavo/mesh/repair_steps.hpp>
+#include <octavo/mesh/repeats.hpp>
 #include <octavo/mesh/shells.hpp>
 #include <octavo/mesh/topology.hpp>
 
 namespace octavo::mesh {
 namespace {
-
-bool names_a_vertex_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 /// Does it turn as the same three vertices in ascending order do?
 bool turns_forward(const Triangle& t) {
@@ -21,30 +20,6 @@ bool turns_forward(const Triangle& t) {
 
 VertexIndex third_vertex(const RepairSoup& soup, SideIndex side) {
     return soup.triangles[side / 3][(side % 3 + 2) % 3];
-}
-
-/// Facets with the same vertices, by groups of at least two; each group ascending.
-std::vector<std::vector<FaceIndex>> groups_of_duplicates(const RepairSoup& soup, const EdgeTable& edges) {
-    std::vector<std::vector<FaceIndex>> groups;
-    std::vector<std::pair<VertexIndex, FaceIndex>> at_edge;
-    for (EdgeIndex edge = 0; edge < edges.size(); ++edge) {
-        at_edge.clear();
-        // Each facet once: at the edge of its two lowest vertices.
-        for (const SideIndex side : edges.sides_of(edge))
-            if (third_vertex(soup, side) > edges.ends[edge][1])
-                at_edge.push_back({third_vertex(soup, side), side / 3});
-        std::sort(at_edge.begin(), at_edge.end());
-        for (std::size_t i = 0; i < at_edge.size();) {
-            std::size_t j = i;
-            while (j < at_edge.size() && at_edge[j].first == at_edge[i].first) ++j;
-            if (j - i > 1) {
-                std::vector<FaceIndex>& group = groups.emplace_back();
-                for (std::size_t k = i; k < j; ++k) group.push_back(at_edge[k].second);
-            }
-            i = j;
-        }
-    }
-    return groups;
 }
 
 void drop(RepairSoup& soup, const std::vector<bool>& dropped, RepairDone& done) {
@@ -83,7 +58,7 @@ RepairDone drop_collapsed_facets(RepairSoup& soup) {
 
 RepairDone drop_duplicate_facets(RepairSoup& soup) {
     std::vector<bool> dropped(soup.triangles.size());
-    for (const auto& group : groups_of_duplicates(soup, edges_of(soup))) {
+    for (const auto& group : groups_of_repeated_facets(soup.triangles, edges_of(soup))) {
         bool forward = false, backward = false;
         for (const FaceIndex face : group) {
             bool& seen = turns_forward(soup.triangles[face]) ? forward : backward;
@@ -96,21 +71,18 @@ RepairDone drop_duplicate_facets(RepairSoup& soup) {
     return done;
 }
 
-RepairDone drop_inner_walls(RepairSoup& soup) {
+RepairDone drop_walls(RepairSoup& soup, RepairDone& flaps) {
     // After duplicates have gone a group is two facets back to back. Those joined by edges are one wall, whose
-    // rim is the edges with one pair only or with other facets; it is inner when there is a rim, and other
-    // facets close it.
+    // rim is the edges with one pair only or with other facets. The wall goes where other facets hold it, and only
+    // where they close without it.
     const EdgeTable edges = edges_of(soup);
-    const auto groups = groups_of_duplicates(soup, edges);
+    const auto groups = groups_of_repeated_facets(soup.triangles, edges);
     std::vector<std::uint32_t> group_of_face(soup.triangles.size(), no_index);
     for (std::uint32_t g = 0; g < groups.size(); ++g)
         for (const FaceIndex face : groups[g]) group_of_face[face] = g;
     DisjointSets walls(groups.size());
-    struct Rim {
-        std::uint32_t group;
-        bool closes_without;
-    };
-    std::vector<Rim> rims;
+    enum class Rim : std::uint8_t { free, closes, opens };
+    std::vector<std::pair<std::uint32_t, Rim>> rims;  // by group
     std::vector<std::uint32_t> here;
     for (EdgeIndex edge = 0; edge < edges.size(); ++edge) {
         here.clear();
@@ -123,24 +95,27 @@ RepairDone drop_inner_walls(RepairSoup& soup) {
                 here.push_back(group);
         }
         for (const std::uint32_t group : here) walls.unite(here[0], group);
-        // What is left at the edge must not be open.
-        const bool closes = others >= 2 && others % 2 == 0;
-        if (here.size() == 1 || others > 0)
-            for (const std::uint32_t group : here) rims.push_back({group, closes});
+        if (here.size() > 1 && others == 0) continue;  // inside the wall
+        const Rim rim = others == 0 ? Rim::free : others % 2 == 0 ? Rim::closes : Rim::opens;
+        for (const std::uint32_t group : here) rims.push_back({group, rim});
     }
-    std::vector<bool> has_rim(groups.size()), has_free_rim(groups.size());
-    for (const Rim& rim : rims) {
-        has_rim[walls.find(rim.group)] = true;
-        if (!rim.closes_without) has_free_rim[walls.find(rim.group)] = true;
-    }
+    std::vector<std::array<bool, 3>> has(groups.size());
+    for (const auto& [group, rim] : rims) has[walls.find(group)][static_cast<std::size_t>(rim)] = true;
     std::vector<bool> dropped(soup.triangles.size());
+    RepairDone inner;
     for (std::uint32_t g = 0; g < groups.size(); ++g) {
-        const std::uint32_t wall = walls.find(g);
-        for (const FaceIndex face : groups[g]) dropped[face] = has_rim[wall] && !has_free_rim[wall];
+        const auto [is_free, closes, opens] = has[walls.find(g)];
+        if (!closes || opens) continue;
+        RepairDone& done = is_free ? flaps : inner;
+        for (const FaceIndex face : groups[g]) {
+            dropped[face] = true;
+            ++done.count;
+            done.faces.push_back(soup.origin[face]);
+        }
     }
-    RepairDone done;
-    drop(soup, dropped, done);
-    return done;
+    RepairDone all;
+    drop(soup, dropped, all);
+    return inner;
 }
 
 RepairDone orient_neighbours(RepairSoup& soup, std::vector<bool>& mixed) {

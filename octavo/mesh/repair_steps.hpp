@@ -29,7 +29,8 @@ struct RepairDone {
 
 RepairDone drop_collapsed_facets(RepairSoup& soup);
 RepairDone drop_duplicate_facets(RepairSoup& soup);
-RepairDone drop_inner_walls(RepairSoup& soup);
+/// Drops facets back to back, of walls inside and of flaps, which `flaps` gets.
+RepairDone drop_walls(RepairSoup& soup, RepairDone& flaps);
 RepairDone flip_needles(RepairSoup& soup);
 /// Turns facets until neighbours agree. `mixed` gets true for facets of surfaces in which some were turned.
 RepairDone orient_neighbours(RepairSoup& soup, std::vector<bool>& mixed);

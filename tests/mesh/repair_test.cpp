@@ -173,6 +173,37 @@ TEST(Repair, RemovesInnerWallsButNoDoubleSidedSheets) {
     EXPECT_EQ(repaired(skin).mesh.triangles.size(), 24u);
 }
 
+TEST(Repair, DropsFlapsThatStandOnASolid) {
+    // A strip of two squares, both sides of it, on the edge from (1, 0, 0) to (1, 1, 0): outside of the box and inside.
+    for (const double x : {2.0, 0.5}) {
+        Mesh flapped = box({0, 0, 0}, {1, 1, 1});
+        const auto at = [&](Vec3 position) {
+            flapped.vertices.push_back(position);
+            return static_cast<VertexIndex>(flapped.vertices.size() - 1);
+        };
+        const VertexIndex a = at({x, 0.25, 0.5}), b = at({x, 0.75, 0.5}), c = at({x, 0.5, 0.7});
+        for (const Triangle& t : {Triangle{1, 3, b}, Triangle{1, b, a}, Triangle{a, b, c}}) {
+            flapped.triangles.push_back(t);
+            flapped.triangles.push_back({t[1], t[0], t[2]});
+        }
+        const Repaired result = repaired(flapped);
+        EXPECT_THAT(kinds_of(result.report),
+                    ElementsAre(RepairKind::dropped_flaps, RepairKind::dropped_vertices));
+        EXPECT_THAT(result.report.steps[0].faces, ElementsAre(12u, 13u, 14u, 15u, 16u, 17u));
+        expect_same(result.mesh, box({0, 0, 0}, {1, 1, 1}));
+    }
+    // Of a part that is open at that edge the flap may be the rest: it stays.
+    Mesh open = box({0, 0, 0}, {1, 1, 1});
+    const Triangle side = open.triangles.back();
+    open.triangles.pop_back();
+    open.vertices.push_back({9, 9, 9});
+    const auto far = static_cast<VertexIndex>(open.vertices.size() - 1);
+    open.triangles.push_back({side[0], side[1], far});
+    open.triangles.push_back({side[1], side[0], far});
+    EXPECT_EQ(repaired(open).report.count(RepairKind::dropped_flaps), 0u);
+    EXPECT_EQ(repaired(open).mesh.triangles.size(), 13u);
+}
+
 TEST(Repair, SeparatesSolidsThatTouchAtEdgesAndVertices) {
     const Mesh at_edge = both(box({0, 0, 0}, {1, 1, 1}), box({1, 1, 0}, {2, 2, 1}));
     const Repaired edge = repaired(at_edge);

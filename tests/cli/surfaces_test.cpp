@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/program.hpp"
+
+// What is told of surfaces that bound no solid, or not as they stand: open, with flaps, inside out, through themselves.
+
+namespace octavo::tests {
+namespace {
+
+using Surfaces = ProgramTest;
+using nlohmann::json;
+
+/// A cube from 0 to 1; `more` faces may use vertex 8, far off, and `vertices` is how many there are.
+std::string cube_with(const std::string& more, int faces) {
+    return "OFF\n9 " + std::to_string(6 + faces) +
+           " 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n3 0.5 0.5\n"
+           "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n" +
+           more;
+}
+
+constexpr const char* open_cube =
+    "OFF\n8 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+    "4 0 3 2 1\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+
+TEST_F(Surfaces, RepairDropsAFlapOfNoThickness) {
+    // Both sides of a triangle that stands on an edge of the cube.
+    write("flap.off", cube_with("3 1 2 8\n3 2 1 8\n", 2));
+    ASSERT_EQ(octavo("check flap.off").exit_code, 1);
+    const Ran ran = octavo("repair flap.off -o fixed.off --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const json result = ran.json()["result"];
+    EXPECT_EQ(result["valid"], true);
+    ASSERT_EQ(result["repairs"].size(), 2U) << result["repairs"];
+    EXPECT_EQ(result["repairs"][0]["kind"], "dropped_flaps");
+    EXPECT_EQ(result["repairs"][0]["faces"], (json{6, 7}));
+    EXPECT_EQ(result["repairs"][1]["kind"], "dropped_vertices");
+    EXPECT_NE(
+        octavo("repair flap.off -o fixed.off").out.find("2 facets of flaps without thickness were dropped."),
+        std::string::npos);
+    EXPECT_EQ(octavo("check fixed.off").exit_code, 0);
+    EXPECT_EQ(octavo("info fixed.off --json").json()["result"]["volume"], 1.0);
+}
+
+TEST_F(Surfaces, RepairSaysWhatHelpsWhereItDoesNot) {
+    write("open.off", open_cube);
+    const Ran open = octavo("repair open.off -o a.off");
+    EXPECT_EQ(open.exit_code, 0) << "the file was written";
+    EXPECT_NE(open.err.find("what was written bounds no solid"), std::string::npos) << open.err;
+    EXPECT_NE(open.err.find("--open winding"), std::string::npos) << open.err;
+    // A tetrahedron that runs through the cube's side.
+    write("through.off",
+          "OFF\n12 10 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+          "0.5 0.2 0.3\n2 0.4 0.4\n0.5 0.8 0.3\n0.5 0.5 0.7\n"
+          "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"
+          "3 8 10 9\n3 8 9 11\n3 9 10 11\n3 10 8 11\n");
+    const Ran through = octavo("repair through.off -o b.off --json");
+    EXPECT_EQ(through.exit_code, 0);
+    EXPECT_EQ(through.json()["result"]["valid"], false);
+    EXPECT_NE(through.err.find("octavo union b.off -o FILE"), std::string::npos) << through.err;
+    ASSERT_EQ(octavo("union b.off -o c.off").exit_code, 0);
+    EXPECT_EQ(octavo("check c.off").exit_code, 0) << octavo("check c.off").out;
+    // Nothing is left: nothing is said.
+    EXPECT_EQ(octavo("repair c.off -o d.off --json").json()["warnings"], json::array());
+}
+
+}  // namespace
+}  // namespace octavo::tests
