@@ -121,22 +121,22 @@ class CsgDescent {
         workspace.octants += 8;
         const std::span<const std::uint32_t> words = workspace.words(description);
         csg::Pruner& pruner = workspace.pruner;
-        const csg::Seen seen = pruner.evaluate(program_, words, parent);
         if (parent.level + 1 == options_.depth)
-            return give_colors(looked_at_again(parent, words, workspace, seen), children);
+            return give_colors(looked_at_again(parent, words, workspace), children);
+        const csg::OctantColors colors = pruner.evaluate_colors(program_, words, parent);
         const auto buffer = static_cast<std::uint32_t>(parent.level + 1);
-        csg::Scratch<std::uint32_t>& to = workspace.buffers[buffer];
-        if (!pruner.unchanged()) to.clear();
-        for (int i = 0; i < 8; ++i) {
-            octree::Restricted<Description>& child = children[static_cast<std::size_t>(i)];
-            child.node = octree::leaf_of(seen.octants[i]);
+        std::array<csg::Pruner::Part, 8> parts;
+        if (!pruner.unchanged()) {
+            workspace.buffers[buffer].clear();
+            parts = pruner.prune(words, colors.gray(), workspace.buffers[buffer]);
+        }
+        for (std::size_t i = 0; i < 8; ++i) {
+            octree::Restricted<Description>& child = children[i];
+            child.node = octree::leaf_of(colors[static_cast<int>(i)]);
             if (child.node != octree::Node::gray) continue;
-            child = {octree::Node::split, description};
-            if (pruner.unchanged()) continue;
-            const std::size_t begin = to.size();
-            pruner.prune(words, i, to);
-            child.description = {static_cast<std::uint32_t>(begin),
-                                 static_cast<std::uint32_t>(to.size() - begin), buffer};
+            child.node = octree::Node::split;
+            child.description =
+                pruner.unchanged() ? description : Description{parts[i].begin, parts[i].size, buffer};
         }
     }
 
@@ -227,11 +227,13 @@ class CsgDescent {
 
     /// Octants of a cell that are not white as a whole, nor black.
     static std::uint64_t octants_of_two_colors(const octree::GrandchildColors& colors) {
-        std::uint64_t count = 0;
-        for (unsigned octant = 0; octant < 8; ++octant)
-            count += (colors.white >> (8 * octant) & 0xFF) != 0xFF &&
-                     (colors.black >> (8 * octant) & 0xFF) != 0xFF;
-        return count;
+        // The highest bit of each byte that is not zero.
+        const auto nonzero_bytes = [](std::uint64_t bytes) {
+            constexpr std::uint64_t low_bits = 0x7F7F7F7F7F7F7F7F;
+            return (((bytes & low_bits) + low_bits) | bytes) & ~low_bits;
+        };
+        return static_cast<std::uint64_t>(
+            std::popcount(nonzero_bytes(~colors.white) & nonzero_bytes(~colors.black)));
     }
 
     static octree::Cell cell_of(const octree::Cell& brick, const csg::BrickCell& cell) {
@@ -254,16 +256,17 @@ class CsgDescent {
 
     bool resolves() const { return options_.last_level == CsgDescentOptions::LastLevel::resolve; }
 
-    /// Of a tree with one level: the octants of the universe.
+    /// Of a tree with one level or two, which has no bricks: the octants on the last.
     csg::OctantColors looked_at_again(const octree::Cell& parent, std::span<const std::uint32_t> words,
-                                      Workspace& workspace, const csg::Seen& seen) const {
+                                      Workspace& workspace) const {
+        const csg::Seen seen = workspace.pruner.evaluate(program_, words, parent);
         csg::OctantColors colors = seen.octants;
         if (!resolves()) return colors;
         unsigned open = colors.gray() & ~octants_on_both_sides(seen.points);
         for (; open != 0; open &= open - 1) {
-            const int octant = std::countr_zero(open);
             workspace.cell_words.clear();
-            workspace.pruner.prune(words, octant, workspace.cell_words);
+            workspace.pruner.prune(words, open & -open, workspace.cell_words);
+            const int octant = std::countr_zero(open);
             colors.set(octant, look_again(parent.child(octant), workspace));
         }
         return colors;

@@ -5,20 +5,15 @@
 #include <cstring>
 
 #include <octavo/csg/body_in_cells.hpp>
+#include <octavo/csg/float_lanes.hpp>
 
 namespace octavo::csg {
 namespace {
-
-using Floats = float __attribute__((vector_size(32)));
-using Flags = std::int32_t __attribute__((vector_size(32)));
 
 // How deep in a constraint the walk aims to arrive, in parts of a cell, by round. Less every time: thin bodies leave no
 // more room.
 constexpr std::array<float, 5> aims{0.08F, 0.05F, 0.02F, 0.006F, 0.002F};
 
-Floats absolute(Floats v) { return v < 0 ? -v : v; }
-Floats larger(Floats a, Floats b) { return a > b ? a : b; }
-Floats smaller(Floats a, Floats b) { return a < b ? a : b; }
 bool any(Flags flags) {
     std::array<std::uint64_t, 4> words;
     static_assert(sizeof words == sizeof flags);

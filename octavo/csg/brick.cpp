@@ -186,22 +186,22 @@ void Brick::prune(BrickCell cell, Scratch<std::uint32_t>& buffer) {
     const std::span<const std::uint32_t> words = words_;
     buffer.clear();
     // As in prune.cpp.
-    std::uint32_t* const room = buffer.room(2 * words.size() + matters_.size() + windings_.size() + 1);
-    const auto color_of = [&](std::uint32_t at) {
+    std::array<std::uint32_t*, 8> to{buffer.room(2 * words.size() + matters_.size() + windings_.size() + 1)};
+    const auto colors_at = [&](std::uint32_t at) {
         const LayerPair& cells = nodes_[at].cells;
-        if (cell.in(cells.out)) return octree::Color::white;
-        return cell.in(cells.in) ? octree::Color::black : octree::Color::gray;
+        return OctantColors{cell.in(cells.out), cell.in(cells.in)};
     };
     const std::size_t place = 8 * (cell.x / 2 + 2 * (cell.y / 2) + 4 * (cell.z / 2)) +
                               (cell.x % 2 + 2 * (cell.y % 2) + 4 * (cell.z % 2));
-    const auto write = [&](std::uint32_t at, std::uint32_t* to) {
+    const auto write = [&](std::uint32_t at, std::size_t, std::uint32_t* end) {
         const Node& node = nodes_[at];
         const Layers* const matters = matters_.data() + node.matters;
         const bool polyhedron = program_->leaves[word::leaf(words[at])].kind == LeafKind::polyhedron;
-        return write_leaf(*program_, words, at, polyhedron ? windings_[node.windings + place] : 0, to,
+        return write_leaf(*program_, words, at, polyhedron ? windings_[node.windings + place] : 0, end,
                           [&](std::size_t i) { return cell.in(matters[i]); });
     };
-    buffer.end_at(prune_words(words, written_, room, color_of, write));
+    prune_words(words, written_, 1, to, colors_at, write);
+    buffer.end_at(to[0]);
 }
 
 }  // namespace octavo::csg

@@ -4,13 +4,11 @@
 #include <bit>
 
 #include <octavo/csg/brick_sides.hpp>
+#include <octavo/csg/float_lanes.hpp>
 #include <octavo/csg/surface_steps.hpp>
 
 namespace octavo::csg {
 namespace {
-
-using Floats = float __attribute__((vector_size(32)));
-using Flags = std::int32_t __attribute__((vector_size(32)));
 
 // Lane k of a register is layer k; of cells, the upper four lanes are the layers again, two rows of cells further.
 constexpr Floats corner_z{0, 1, 2, 3, 4, 0, 0, 0};
@@ -39,23 +37,37 @@ LayerPair corners_one_by_one(const Value& value, decltype(value(0, 0, 0)) error)
     return corners;
 }
 
-/// Corners below −error and above error.
-LayerPair corners_of(const QuadricSteps& q, float error) {
-    Flags inside{}, outside{};
+/// One bit after the other, the highest first.
+class Bits {
+  public:
+    void add(Flags flags) { bits_ = (bits_ + bits_) - flags; }
+    Layers layers() const { return layers_of(bits_); }
+
+  private:
+    Flags bits_{};
+};
+
+/// Corners inside; all others are outside, unless some value is within the error.
+struct QuadricCorners {
+    Layers inside;
+    bool all_known;
+};
+QuadricCorners corners_of(const QuadricSteps& q, float error) {
+    Bits inside;
+    Floats nearest = Floats{} + 0x1p120F;
     const Floats column = q.low + corner_z * (q.z + corner_z * q.zz);
     const Floats along_x = q.x + corner_z * q.xz, along_y = q.y + corner_z * q.yz;
-    for (std::uint32_t j = 0; j < 5; ++j) {
+    for (int j = 4; j >= 0; --j) {
         const auto y = static_cast<float>(j);
         const Floats row = column + y * (along_y + y * q.yy), slope = along_x + y * q.xy;
-        for (std::uint32_t i = 0; i < 5; ++i) {
+        for (int i = 4; i >= 0; --i) {
             const auto x = static_cast<float>(i);
-            const Floats value = row + x * (slope + x * q.xx);
-            const auto one = static_cast<std::int32_t>(1U << (i + row_bits * j));
-            inside |= (value < -error) & one;
-            outside |= (value > error) & one;
+            const Floats value = row + x * (slope + x * q.xx), distance = absolute(value);
+            inside.add(value < 0);
+            nearest = smaller(distance, nearest);
         }
     }
-    return {layers_of(outside) & Layers::corners(), layers_of(inside) & Layers::corners()};
+    return {inside.layers() & Layers::corners(), !layers_of(nearest <= error).any()};
 }
 
 /// Two to the n, less one, in a float: a count of corners as their bits. For counts of five corners in three rows.
@@ -90,10 +102,7 @@ LayerPair corners_of(const PlaneSteps& p) {
     RowBits inside, not_outside;
     for (std::uint32_t j = 0; j < 5; ++j) {
         const Floats row = column - static_cast<float>(j) * (scale * p.sy);
-        const auto clamped = [](Floats v) {
-            v = v > 0 ? v : Floats{};
-            return v < 5 ? v : Floats{} + 5;
-        };
+        const auto clamped = [](Floats v) { return smaller(larger(v, Floats{}), Floats{} + 5); };
         inside.add(j, clamped(row - error));
         not_outside.add(j, clamped(row + error));
     }
@@ -103,23 +112,23 @@ LayerPair corners_of(const PlaneSteps& p) {
 
 /// Cells in which the tangent at the middle, less `bend`, stays positive. For its rounding see point_sides.cpp.
 Layers above_tangent(const QuadricSteps& q, float bend) {
-    const auto absolute = [](Floats v) { return v < 0 ? -v : v; };
     const Floats column = q.low + cell_z * (q.z + cell_z * q.zz);
-    Flags above{};
-    for (std::uint32_t j = 0; j < 2; ++j) {
+    Bits above;
+    for (int j = 1; j >= 0; --j) {
         const Floats y = cell_y + static_cast<float>(j);
         const Floats row = column + y * (q.y + y * q.yy + cell_z * q.yz);
         const Floats slope = q.x + y * q.xy + cell_z * q.xz;
         const Floats gy = q.y + 2 * y * q.yy + cell_z * q.yz, gz = q.z + 2 * cell_z * q.zz + y * q.yz;
-        for (std::uint32_t i = 0; i < 4; ++i) {
+        above.add(Flags{});  // the fifth corner of a row is no cell
+        for (int i = 3; i >= 0; --i) {
             const float x = static_cast<float>(i) + 0.5F;
             const Floats change =
                 absolute(slope + 2 * x * q.xx) + absolute(gy + x * q.xy) + absolute(gz + x * q.xz);
             const Floats least = row + x * (slope + x * q.xx) - 0.5F * change;
-            above |= (least > bend) & static_cast<std::int32_t>(1U << (i + row_bits * j));
+            above.add(least > bend);
         }
     }
-    const Layers::Lanes cells = layers_of(above).layer;
+    const Layers::Lanes cells = above.layers().layer;
     return Layers{cells | __builtin_shufflevector(cells, cells, 4, 5, 6, 7, 0, 1, 2, 3) << (2 * row_bits)} &
            Layers::cells();
 }
@@ -171,32 +180,31 @@ Layers any_axis(const std::array<std::uint32_t, 3>& bits) {
 // holds: those of quadrics are about one or less, those of planes up to 2^63.
 constexpr float plane_scale = 0x1p-48F;
 
-BrickSurface seen_from_brick(const PlaneSteps& p) {
-    BrickSurface s;
+void see(const PlaneSteps& p, BrickSurface& s) {
+    s.xx = s.yy = s.zz = s.xy = s.xz = s.yz = s.bend = 0;
+    s.curved = false;
+    s.plain = true;
     s.low = p.at_low * plane_scale;
     s.x = p.sx * plane_scale, s.y = p.sy * plane_scale, s.z = p.sz * plane_scale;
     s.error = p.error(4) * plane_scale + underflow;
     s.slope = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
-    return s;
 }
 
-BrickSurface seen_from_brick(const QuadricSteps& q, float error) {
-    BrickSurface s;
+void see(const QuadricSteps& q, float error, BrickSurface& s) {
     s.low = q.low, s.x = q.x, s.y = q.y, s.z = q.z;
     s.xx = q.xx, s.yy = q.yy, s.zz = q.zz, s.xy = q.xy, s.xz = q.xz, s.yz = q.yz;
     s.error = error;
-    s.curved = true;
+    s.curved = s.plain = true;
     const float x = q.x + 4 * q.xx + 2 * (q.xy + q.xz), y = q.y + 4 * q.yy + 2 * (q.xy + q.yz),
                 z = q.z + 4 * q.zz + 2 * (q.xz + q.yz);
     s.slope = std::sqrt(x * x + y * y + z * z);
-    return s;
 }
 
 }  // namespace
 
 BrickSides brick_sides(const LatticePlane& plane, const octree::Cell& brick, BrickSurface& surface) {
     const PlaneSteps p(plane, brick, brick.side() / 4);
-    surface = seen_from_brick(p);
+    see(p, surface);
     BrickSides result;
     result.corners = corners_of(p);
     if (!all_known(result.corners))
@@ -213,10 +221,11 @@ BrickSides brick_sides(const Quadric& quadric, const octree::Cell& brick, BrickS
     const QuadricAtCorner corner(quadric, offset.low);
     const QuadricSteps q(quadric, corner, quarter, 4);
     const float rounding = single_error * q.size + (static_cast<float>(error) * 1.0001F + underflow);
-    surface = seen_from_brick(q, rounding);
+    see(q, rounding, surface);
     BrickSides result;
-    result.corners = corners_of(q, rounding);
-    if (!all_known(result.corners))
+    if (const QuadricCorners corners = corners_of(q, rounding); corners.all_known)
+        result.corners = {without(Layers::corners(), corners.inside), corners.inside};
+    else
         result.corners = corners_one_by_one(
             [&](int i, int j, int k) { return corner.at(quadric, i * quarter, j * quarter, k * quarter); },
             error);

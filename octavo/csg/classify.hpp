@@ -24,11 +24,16 @@ struct Remains {
     std::uint64_t tests = 0;         ///< octants in which a primitive was looked at, beyond its bounding box
 };
 
-/// Of the octants of `parent` only those in `needed` must be right; the points are right always. Appends to `remains`
+/// Of the octants of `parent` only those in `needed` must be right; the points, where they are asked for, are right always. Appends to `remains`
 /// one byte for each constraint or triangle of the payload, and for a polyhedron eight windings, unless all needed
 /// octants are decided.
-Seen classify(const Program& program, const Leaf& leaf, Payload payload, const octree::Cell& parent,
-              std::uint8_t needed, Remains& remains);
+template <class SeenOfLeaf>
+SeenOfLeaf classify(const Program& program, const Leaf& leaf, Payload payload, const octree::Cell& parent,
+                    std::uint8_t needed, Remains& remains);
+extern template Seen classify<Seen>(const Program&, const Leaf&, Payload, const octree::Cell&, std::uint8_t,
+                                    Remains&);
+extern template ColorsSeen classify<ColorsSeen>(const Program&, const Leaf&, Payload, const octree::Cell&,
+                                                std::uint8_t, Remains&);
 
 /// The triangles of a polyhedron in a cell, and the winding number at the cell's reference point.
 struct TrianglesInCell {

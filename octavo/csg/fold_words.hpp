@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include <octavo/csg/octant_colors.hpp>
 #include <octavo/csg/program.hpp>
 #include <octavo/csg/scratch.hpp>
 
@@ -102,60 +105,78 @@ Seen fold_words(std::span<const std::uint32_t> words, const typename Seen::Cells
     }
 }
 
-/// An operation that is being written.
+/// An operation that is being written, in some of up to eight cells.
 struct WrittenOperation {
-    std::uint32_t end;    // in the words read
-    std::uint32_t* word;  // in the words written
-    std::uint32_t count;  // operands written
+    std::uint32_t end;  // in the words read
+    word::Operation operation;
+    unsigned cells;                      // in which it is written; only these have what follows
+    std::array<std::uint32_t*, 8> word;  // in the words written
+    std::array<std::uint32_t, 8> operands;
 };
 
-/// Writes what is undecided in one cell. `color(at)` is that of the node at a word there, `write_leaf(at, to)` writes
-/// a leaf and returns the end. The program must be gray in the cell. Returns the end of what was written.
-template <class ColorOf, class WriteLeaf>
-std::uint32_t* prune_words(std::span<const std::uint32_t> words, std::vector<WrittenOperation>& written,
-                           std::uint32_t* to, const ColorOf& color_of, const WriteLeaf& write_leaf) {
-    if (word::is_leaf(words[0])) return write_leaf(0, to);
+template <class Visit>
+void for_each_bit(unsigned bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+/// Ends an operation in one cell.
+inline void close_operation(std::uint32_t* word, std::uint32_t operands, const std::uint32_t* end) {
+    std::uint32_t& w = *word;
+    w = (w & ~word::size_mask) | static_cast<std::uint32_t>(end - word);
+    if (operands > 1) return;
+    // One operand left: it stands for the operation, complemented where an even count was asked for.
+    const bool flip = word::operation(w) == word::symmetric_difference && (w & word::even_bit);
+    if (flip && !word::is_leaf(word[1])) return;
+    if (flip) word[1] ^= word::complement_bit;
+    w = std::uint32_t{word::skip} << word::operation_shift;
+}
+
+/// Writes what is undecided in each of some cells, of up to eight, in one pass over the words: each is needed in one or
+/// two cells only. `colors_at(at)` are those of the node at a word, `write_leaf(at, cell, to)` writes a leaf and returns
+/// the end. The program must be gray in the cells. `to` is moved on to the ends of what was written.
+template <class ColorsAt, class WriteLeaf>
+void prune_words(std::span<const std::uint32_t> words, std::vector<WrittenOperation>& written, unsigned cells,
+                 std::array<std::uint32_t*, 8>& to, const ColorsAt& colors_at, const WriteLeaf& write_leaf) {
     written.clear();
     std::uint32_t at = 0;
     const auto end = static_cast<std::uint32_t>(words.size());
     for (;;) {
-        while (!written.empty() && written.back().end == at) {
-            const WrittenOperation closed = written.back();
-            written.pop_back();
-            std::uint32_t& w = *closed.word;
-            w = (w & ~word::size_mask) | static_cast<std::uint32_t>(to - closed.word);
-            if (closed.count > 1) continue;
-            // One operand left: it stands for the operation, complemented where an even count was asked for.
-            std::uint32_t& operand = closed.word[1];
-            const bool flip = word::operation(w) == word::symmetric_difference && (w & word::even_bit);
-            if (flip && !word::is_leaf(operand)) continue;
-            if (flip) operand ^= word::complement_bit;
-            w = std::uint32_t{word::skip} << word::operation_shift;
+        for (; !written.empty() && written.back().end == at; written.pop_back()) {
+            const WrittenOperation& closed = written.back();
+            for_each_bit(closed.cells,
+                         [&](std::size_t i) { close_operation(closed.word[i], closed.operands[i], to[i]); });
         }
-        if (at == end) return to;
+        if (at == end) return;
         const std::uint32_t w = words[at];
         if (!word::is_leaf(w) && word::operation(w) == word::skip) {
             ++at;
             continue;
         }
-        const octree::Color color = color_of(at);
-        if (color != octree::Color::gray) {
-            if (color == octree::Color::black && !written.empty()) {
-                std::uint32_t& around = *written.back().word;
-                if (word::operation(around) == word::symmetric_difference) around ^= word::even_bit;
-            }
+        const OctantColors colors = colors_at(at);
+        unsigned gray = cells & colors.gray();
+        if (!written.empty()) {
+            WrittenOperation& around = written.back();
+            gray = around.cells & colors.gray();
+            if (around.operation == word::symmetric_difference)
+                for_each_bit(around.cells & colors.black,
+                             [&](std::size_t i) { *around.word[i] ^= word::even_bit; });
+            for_each_bit(gray, [&](std::size_t i) { ++around.operands[i]; });
+        }
+        if (gray == 0 || word::is_leaf(w)) {
+            for_each_bit(gray, [&](std::size_t i) { to[i] = write_leaf(at, i, to[i]); });
             at += word::size(words.data() + at);
             continue;
         }
-        if (!written.empty()) ++written.back().count;
-        if (word::is_leaf(w)) {
-            to = write_leaf(at, to);
-            at += word::size(words.data() + at);
-        } else {
-            written.push_back({at + (w & word::size_mask), to, 0});
-            *to++ = w;
-            ++at;
-        }
+        WrittenOperation& open = written.emplace_back();
+        open.end = at + (w & word::size_mask);
+        open.operation = word::operation(w);
+        open.cells = gray;
+        for_each_bit(gray, [&](std::size_t i) {
+            open.word[i] = to[i];
+            open.operands[i] = 0;
+            *to[i]++ = w;
+        });
+        ++at;
     }
 }
 

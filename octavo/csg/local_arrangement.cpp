@@ -5,6 +5,7 @@
 #include <octavo/csg/convex_overlap.hpp>
 #include <octavo/csg/flat_patch.hpp>
 #include <octavo/csg/local_arrangement.hpp>
+#include <octavo/csg/point_sides.hpp>
 
 namespace octavo::csg {
 namespace {
@@ -213,7 +214,8 @@ bool LocalArrangement::add_plane(const LatticePlane& plane, bool value) {
         if (surfaces_[s].kind == LocalSurface::Kind::plane)
             if (const int same = same_plane(surfaces_[s].plane, plane); same != 0)
                 return add_literal(s, value == (same > 0));
-    return add_surface({LocalSurface::Kind::plane, 0, value ? plane : plane.flipped()});
+    const LatticePlane side = value ? plane : plane.flipped();
+    return add_surface({LocalSurface::Kind::plane, 0, side, sides_of(side, cell_)});
 }
 
 bool LocalArrangement::add_cone(std::uint32_t index) {
@@ -222,7 +224,8 @@ bool LocalArrangement::add_cone(std::uint32_t index) {
             (surfaces_[s].index == index ||
              same_cone(program_->cones[surfaces_[s].index], program_->cones[index])))
             return add_literal(s, true);
-    return add_surface({LocalSurface::Kind::cone, index, {}});
+    return add_surface(
+        {LocalSurface::Kind::cone, index, {}, sides_of(program_->quadrics[index], cell_).points});
 }
 
 bool LocalArrangement::add_torus(std::uint32_t index) {
@@ -230,14 +233,14 @@ bool LocalArrangement::add_torus(std::uint32_t index) {
         if (surfaces_[s].kind == LocalSurface::Kind::torus &&
             program_->tori[surfaces_[s].index] == program_->tori[index])
             return add_literal(s, true);
-    return add_surface({LocalSurface::Kind::torus, index, {}});
+    return add_surface({LocalSurface::Kind::torus, index, {}, {}});
 }
 
 bool LocalArrangement::add_leaf(std::uint32_t index) {
     for (std::size_t s = 0; s < count_; ++s)
         if (surfaces_[s].kind == LocalSurface::Kind::leaf && surfaces_[s].index == index)
             return add_literal(s, true);
-    return add_surface({LocalSurface::Kind::leaf, index, {}});
+    return add_surface({LocalSurface::Kind::leaf, index, {}, {}});
 }
 
 bool LocalArrangement::add_surface(const LocalSurface& surface) {
@@ -315,16 +318,20 @@ bool LocalArrangement::is_possible(std::size_t depth) {
     std::array<LatticePlane, most_surfaces> planes;
     std::array<const SecondOrderCone*, most_surfaces> cones;
     std::size_t plane_count = 0, cone_count = 0;
+    std::uint64_t points = PointColors::all;
     for (std::size_t s = 0; s < depth; ++s) {
         const LocalSurface& surface = surfaces_[s];
         const bool inside = sides_[s] == Color::black;
-        if (surface.kind == LocalSurface::Kind::plane)
+        if (surface.kind == LocalSurface::Kind::plane) {
             planes[plane_count++] = inside ? surface.plane : surface.plane.flipped();
-        else if (surface.kind == LocalSurface::Kind::cone && inside)
+            points &= inside ? surface.points.inside : surface.points.outside;
+        } else if (surface.kind == LocalSurface::Kind::cone && inside) {
             cones[cone_count++] = &program_->cones[surface.index];
+            points &= surface.points.inside;
+        }
     }
     // One surface alone meets the cell on both sides, or pruning would have removed it.
-    if (plane_count + cone_count < 2) return true;
+    if (plane_count + cone_count < 2 || points != 0) return true;
     return overlap(cell_, {planes.data(), plane_count}, {cones.data(), cone_count}) != Overlap::apart;
 }
 

@@ -39,6 +39,8 @@ struct LocalSurface {
     enum class Kind : std::uint8_t { plane, cone, torus, leaf } kind = Kind::plane;
     std::uint32_t index = 0;  ///< in the program; not of a plane
     LatticePlane plane;
+    /// Where the points of the cell lie, of a plane or cone: most combinations of signs are those of some point.
+    PointColors points;
 };
 
 /// Resolves one cell after the other; keeps its buffers.

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <octavo/csg/float_lanes.hpp>
 #include <octavo/csg/point_sides.hpp>
 #include <octavo/csg/surface_steps.hpp>
 
 namespace octavo::csg {
 namespace {
-
-using Floats = float __attribute__((vector_size(32)));
-using Flags = std::int32_t __attribute__((vector_size(32)));
 
 // Three registers hold eight of the nine corners of a layer each, the fourth the ninth corners, the fifth the
 // middles of the octants. Steps are halves of the cell.
@@ -79,7 +77,6 @@ Values values_of(const QuadricSteps& q) {
 /// Octants in which the tangent at the middle, less `bend`, stays positive. Its rounding is that of a value and three
 /// components of a gradient with six roundings each: 33 units of `size`, below four single errors, which `bend` has.
 std::uint8_t above_tangent(const QuadricSteps& q, Floats middle, float bend) {
-    const auto absolute = [](Floats v) { return v < 0 ? -v : v; };
     const Floats gx = q.x + 2 * middle_x * q.xx + middle_y * q.xy + middle_z * q.xz;
     const Floats gy = q.y + middle_x * q.xy + 2 * middle_y * q.yy + middle_z * q.yz;
     const Floats gz = q.z + middle_x * q.xz + middle_y * q.yz + 2 * middle_z * q.zz;
@@ -113,6 +110,21 @@ PointColors sides_of(const LatticePlane& plane, const octree::Cell& cell) {
     return sides_one_by_one(
         [&](int i, int j, int k) { return -p.low - i * (p.x / 2) - j * (p.y / 2) - k * (p.z / 2); },
         std::int64_t{0});
+}
+
+OctantColors octants_of(const LatticePlane& plane, const octree::Cell& cell) {
+    // From the middle of an octant to its corner farthest inside and outside.
+    const PlaneSteps p(plane, cell, cell.side() / 2);
+    const Floats middle = p.at_low + middle_x * p.sx + middle_y * p.sy + middle_z * p.sz;
+    const float reach = 0.5F * (std::fabs(p.sx) + std::fabs(p.sy) + std::fabs(p.sz)), error = p.error(2);
+    const auto octants = [](Flags flags) { return static_cast<std::uint8_t>(joined(flags & layer_bits)); };
+    const OctantColors colors{octants(middle - reach > error), octants(middle + reach < -error)};
+    if ((octants(middle - reach >= -error) == colors.white) &&
+        (octants(middle + reach <= error) == colors.black))
+        return colors;
+    const PointColors points = sides_of(plane, cell);
+    return {static_cast<std::uint8_t>(~octants_with_corner(points.inside)),
+            static_cast<std::uint8_t>(~octants_with_corner(points.outside))};
 }
 
 QuadricSides sides_of(const Quadric& quadric, const octree::Cell& cell) {

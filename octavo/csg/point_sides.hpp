@@ -3,6 +3,7 @@
 
 #include <octavo/csg/lattice_plane.hpp>
 #include <octavo/csg/lattice_torus.hpp>
+#include <octavo/csg/octant_colors.hpp>
 #include <octavo/csg/point_colors.hpp>
 #include <octavo/csg/quadric.hpp>
 
@@ -18,6 +19,8 @@
 namespace octavo::csg {
 
 PointColors sides_of(const LatticePlane& plane, const octree::Cell& cell);
+/// Of the octants: white without a corner strictly inside, black without one strictly outside.
+OctantColors octants_of(const LatticePlane& plane, const octree::Cell& cell);
 PointColors sides_of(const LatticeTorus& torus, const octree::Cell& cell);
 
 /// Of a quadric also the octants that it certainly misses, beyond those whose corners say so: there the tangent at

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors do not leave this file
+
 #include <algorithm>
+#include <cstring>
 
 #include <octavo/csg/prune.hpp>
 
@@ -7,10 +10,22 @@ namespace octavo::csg {
 
 Seen Pruner::evaluate(const Program& program, std::span<const std::uint32_t> words,
                       const octree::Cell& parent) {
+    return evaluate_as<Seen>(program, words, parent);
+}
+
+OctantColors Pruner::evaluate_colors(const Program& program, std::span<const std::uint32_t> words,
+                                     const octree::Cell& parent) {
+    return evaluate_as<ColorsSeen>(program, words, parent).octants;
+}
+
+template <class SeenOfNode>
+SeenOfNode Pruner::evaluate_as(const Program& program, std::span<const std::uint32_t> words,
+                               const octree::Cell& parent) {
     program_ = &program;
     remains_.matters.clear();
     remains_.windings.clear();
     nodes_.resize(words.size());
+    room_ = {};
     ++evaluation_;
     unchanged_ = false;
     if (word::is_leaf(words[0])) {
@@ -24,15 +39,37 @@ Seen Pruner::evaluate(const Program& program, std::span<const std::uint32_t> wor
         node.matters = static_cast<std::uint32_t>(remains_.matters.size());
         node.windings = static_cast<std::uint32_t>(remains_.windings.size());
         const Leaf& leaf = program.leaves[word::leaf(words[at])];
-        Seen seen = classify(program, leaf, payload_at(words, at), parent, needed, remains_);
+        SeenOfNode seen =
+            classify<SeenOfNode>(program, leaf, payload_at(words, at), parent, needed, remains_);
         node.whole = remains_.whole;
-        node.met = seen.points.inside != 0 || seen.octants.black != 0;
+        node.met = seen.octants.black != 0;
+        if constexpr (SeenOfNode::has_points) node.met |= seen.points.inside != 0;
         if (words[at] & word::complement_bit) seen = complement(seen);
         node.colors = seen.octants;
+        // As it is, or with a payload: two words, its items and a winding.
+        const std::size_t items = remains_.matters.size() - node.matters;
+        make_room(seen.octants, std::max<std::size_t>(word::size(words.data() + at), items + 3));
         return seen;
     };
-    const auto note = [&](std::uint32_t at, const Seen& seen) { nodes_[at].colors = seen.octants; };
-    return fold_words<Seen>(words, 0xFF, open_, see, note);
+    const auto note = [&](std::uint32_t at, const SeenOfNode& seen) {
+        nodes_[at].colors = seen.octants;
+        make_room(seen.octants, 1);
+    };
+    if constexpr (SeenOfNode::has_points)
+        return fold_words<SeenOfNode>(words, 0xFF, open_, see, note);
+    else
+        return fold_words<SeenOfNode>(words, 0xFF, open_colors_, see, note);
+}
+
+/// Room for so many words more in the gray octants.
+void Pruner::make_room(OctantColors colors, std::size_t words) {
+    using Counts = std::uint32_t __attribute__((vector_size(32)));
+    constexpr Counts bit_of_octant{1, 2, 4, 8, 16, 32, 64, 128};
+    Counts room;
+    std::memcpy(&room, room_.data(), sizeof room);
+    const auto gray = (static_cast<std::uint32_t>(colors.gray()) & bit_of_octant) != 0;
+    room += gray ? Counts{} + static_cast<std::uint32_t>(words) : Counts{};
+    std::memcpy(room_.data(), &room, sizeof room);
 }
 
 Pruner::LeafInCell Pruner::leaf_in_cell(std::size_t at) const {
@@ -43,23 +80,35 @@ Pruner::LeafInCell Pruner::leaf_in_cell(std::size_t at) const {
     return {colors.black == 0xFF ? octree::Color::black : octree::Color::gray, node.met};
 }
 
-void Pruner::prune(std::span<const std::uint32_t> words, int octant, Scratch<std::uint32_t>& buffer) {
-    // Words as they are, and for a leaf that had no payload what that takes: two, its items, a winding, and one that
-    // is written and not kept.
-    std::uint32_t* const room =
-        buffer.room(2 * words.size() + remains_.matters.size() + remains_.windings.size() + 1);
-    const auto write = [&](std::uint32_t at, std::uint32_t* to) {
+std::array<Pruner::Part, 8> Pruner::prune(std::span<const std::uint32_t> words, unsigned octants,
+                                          Scratch<std::uint32_t>& buffer) {
+    std::array<Part, 8> parts{};
+    std::size_t size = 0;
+    for_each_bit(octants, [&](std::size_t i) {
+        parts[i].begin = static_cast<std::uint32_t>(buffer.size() + size);
+        size += room_[i] + 1;  // one is written and not kept
+    });
+    std::uint32_t* const room = buffer.room(size);
+    std::array<std::uint32_t*, 8> to{};
+    for_each_bit(octants, [&](std::size_t i) { to[i] = buffer.data() + parts[i].begin; });
+    const auto write = [&](std::uint32_t at, std::size_t octant, std::uint32_t* end) {
         const Node& node = nodes_[at];
-        if (node.whole) return std::copy_n(words.data() + at, word::size(words.data() + at), to);
+        if (node.whole) return std::copy_n(words.data() + at, word::size(words.data() + at), end);
         const std::uint8_t* const matters = remains_.matters.data() + node.matters;
         const bool polyhedron = program_->leaves[word::leaf(words[at])].kind == LeafKind::polyhedron;
-        const std::int32_t winding =
-            polyhedron ? remains_.windings[node.windings + static_cast<std::size_t>(octant)] : 0;
-        return write_leaf(*program_, words, at, winding, to,
+        const std::int32_t winding = polyhedron ? remains_.windings[node.windings + octant] : 0;
+        return write_leaf(*program_, words, at, winding, end,
                           [&](std::size_t i) { return matters[i] >> octant & 1; });
     };
-    buffer.end_at(prune_words(
-        words, written_, room, [&](std::uint32_t at) { return nodes_[at].colors[octant]; }, write));
+    prune_words(
+        words, written_, octants, to, [&](std::uint32_t at) { return nodes_[at].colors; }, write);
+    std::uint32_t* last = room;
+    for_each_bit(octants, [&](std::size_t i) {
+        parts[i].size = static_cast<std::uint32_t>(to[i] - buffer.data()) - parts[i].begin;
+        last = to[i];
+    });
+    buffer.end_at(last);
+    return parts;
 }
 
 }  // namespace octavo::csg

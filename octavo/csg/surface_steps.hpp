@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #include <octavo/csg/lattice_plane.hpp>
@@ -72,9 +74,13 @@ struct QuadricAtCorner {
     DoubleQuad half_gradient;  // three components
 
     QuadricAtCorner(const Quadric& q, const std::array<double, 3>& d) {
-        std::array<DoubleQuad, 4> row;
-        std::memcpy(row.data(), q.form.data(), sizeof row);
-        half_gradient = row[3] + row[0] * d[0] + row[1] * d[1] + row[2] * d[2];
+        // Each row by itself: the matrix as a whole would be copied in smaller parts, for which the registers wait.
+        const auto row = [&](std::size_t r) {
+            DoubleQuad result;
+            std::memcpy(&result, q.form[r].data(), sizeof result);
+            return result;
+        };
+        half_gradient = row(3) + row(0) * d[0] + row(1) * d[1] + row(2) * d[2];
         value =
             (d[0] * half_gradient[0] + d[1] * half_gradient[1] + d[2] * half_gradient[2]) + half_gradient[3];
     }
@@ -102,7 +108,10 @@ struct QuadricSteps {
             __builtin_convertvector(DoubleQuad{f[0][0], f[1][1], f[2][2], 0} * square, SingleQuad);
         const SingleQuad mixed =
             __builtin_convertvector(DoubleQuad{f[0][1], f[0][2], f[1][2], 0} * (2 * square), SingleQuad);
-        const auto absolute = [](SingleQuad v) { return v < 0 ? -v : v; };
+        const auto absolute = [](SingleQuad v) {
+            using Integers = std::int32_t __attribute__((vector_size(16)));
+            return std::bit_cast<SingleQuad>(std::bit_cast<Integers>(v) & 0x7FFFFFFF);
+        };
         const SingleQuad sum =
             steps * absolute(first) + steps * steps * (absolute(squares) + absolute(mixed));
         size = (sum[0] + sum[1]) + (sum[2] + sum[3]);

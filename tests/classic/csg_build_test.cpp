@@ -122,7 +122,10 @@ TEST(CsgBuild, AnOctreeWithMoreNodesThanAllowedIsRefusedByBothMethods) {
 TEST(CsgBuild, TheNumberOfThreadsChangesNothing) {
     RandomSolids random(4);
     std::vector<Expr> many;
-    for (int i = 0; i < 3000; ++i) many.push_back(csg::transform(random.map(), random.placed()));
+    for (int i = 0; i < 3000; ++i) {
+        const Affine place = random.map();
+        many.push_back(csg::transform(place, random.placed()));
+    }
     const Expr expression = csg::unite(many);
     const CsgOctree one = build_or_die(expression, depth_of(5), 1);
     for (const int threads : {2, 8}) {
@@ -170,8 +173,10 @@ TEST(CsgWalls, AbuttingBoxesLeaveNone) {
 TEST(CsgWalls, TurnedBoxesLeaveNone) {
     RandomSolids random(5);
     for (int round = 0; round < 20; ++round) {
-        const Affine map = turned(random.uniform(0, 6), random.uniform(0, 6), random.uniform(0, 6),
-                                  {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+        // In braces, which fix the order of evaluation.
+        const Vec3 angles{random.uniform(0, 6), random.uniform(0, 6), random.uniform(0, 6)},
+            shift{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+        const Affine map = turned(angles.x, angles.y, angles.z, shift);
         const double cut = random.uniform(-0.8, 0.8);
         expect_no_wall(
             csg::transform(map, csg::unite({box({-1, -1, -1}, {cut, 1, 1}), box({cut, -1, -1}, {1, 1, 1})})),

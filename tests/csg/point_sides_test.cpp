@@ -130,7 +130,11 @@ TEST(PointSides, OfPlanesAreExact) {
     for (int round = 0; round < 300; ++round) {
         const Cell cell = random_cell(random, 0, 20);
         const LatticePlane plane = random_plane(random, cell);
-        expect_right(plane, cell, sides_of(plane, cell), true);
+        const PointColors points = sides_of(plane, cell);
+        expect_right(plane, cell, points, true);
+        const OctantColors octants = octants_of(plane, cell);
+        EXPECT_EQ(octants.white, static_cast<std::uint8_t>(~octants_with_corner(points.inside)));
+        EXPECT_EQ(octants.black, static_cast<std::uint8_t>(~octants_with_corner(points.outside)));
         BrickSurface surface;
         const BrickSides brick = brick_sides(plane, cell, surface);
         expect_right(plane, cell, brick.corners, true);

@@ -37,7 +37,7 @@ Expr primitive(Color color) {
 /// What is left of the words last evaluated in an octant.
 std::vector<std::uint32_t> left_in(Pruner& pruner, const std::vector<std::uint32_t>& words, int octant) {
     Scratch<std::uint32_t> left;
-    pruner.prune(words, octant, left);
+    pruner.prune(words, 1U << octant, left);
     return {left.data(), left.data() + left.size()};
 }
 
@@ -85,7 +85,7 @@ TEST(Prune, OnlyWhatIsUndecidedIsHandedDown) {
     Pruner pruner;
     EXPECT_EQ(pruner.evaluate(program, program.words, octree::Cell::root()).octants[0], Color::gray);
     Scratch<std::uint32_t> words;
-    pruner.prune(program.words, 0, words);
+    pruner.prune(program.words, 1, words);
     // The union is left with one operand: a word that is stepped over, and the leaf.
     ASSERT_EQ(words.size(), 2U);
     EXPECT_EQ(word::operation(words[0]), word::skip);

@@ -149,6 +149,12 @@ class RandomSolids {
     double uniform(double low, double high) {
         return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
     }
+    /// The same, or its negative. In two steps: the order of a product's factors differs between compilers.
+    double either_way(double low, double high) {
+        const bool negative = below(2) == 0;
+        const double size = uniform(low, high);
+        return negative ? -size : size;
+    }
     int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
 
     /// A map that turns, stretches, shears or mirrors; sometimes only along the axes, sometimes with whole numbers.
@@ -157,7 +163,7 @@ class RandomSolids {
         const int kind = below(4);
         for (std::size_t r = 0; r < 3; ++r) {
             for (std::size_t c = 0; c < 3; ++c)
-                m.m[r][c] = kind == 0   ? (r == c ? (below(2) ? 1 : -1) * uniform(0.3, 2) : 0)
+                m.m[r][c] = kind == 0   ? (r == c ? either_way(0.3, 2) : 0)
                             : kind == 1 ? static_cast<double>(below(5) - 2)
                                         : uniform(-1, 1);
             m.m[r][3] = kind == 1 ? static_cast<double>(below(7) - 3) : uniform(-2, 2);
