@@ -121,6 +121,28 @@ TEST(Build, KnowsCavitiesAndPartsThatTouch) {
     }
 }
 
+TEST(Build, StaysExactWhereTheDepthIsLimited) {
+    // Cells at the limit hold trees of whatever is in them: there are no null nodes, and nothing is lost.
+    const exact::Lattice lattice = tests::small_lattice(12);
+    const auto limited = [&](const mesh::Mesh& mesh, int depth) {
+        MeshOptions options = fine(1);
+        options.octree.depth = depth;
+        return tests::octree_of(mesh, options, lattice);
+    };
+    const mesh::Mesh ball = mesh::icosphere(20, 3);
+    for (const mesh::Mesh& mesh : {mesh::gear(), mesh::torus(3, 1, 12, 6), mesh::cube(3)})
+        for (const int depth : {0, 1, 3, 7}) {
+            const std::string what = "depth " + std::to_string(depth);
+            const BspOctree solid = limited(mesh, depth), whole = tests::octree_of(mesh, {}, lattice);
+            EXPECT_LE(solid.stats().deepest, depth);
+            tests::expect_same(solid, whole, what);
+            const BspOctree other = limited(ball, depth), whole_ball = tests::octree_of(ball, {}, lattice);
+            const BspOctree rest = *other.subtract(solid);
+            EXPECT_LE(rest.stats().deepest, depth);
+            tests::expect_same(rest, *whole_ball.subtract(whole), what + ", taken from a ball");
+        }
+}
+
 TEST(Build, RefusesWhatIsNoSolid) {
     mesh::Mesh open = mesh::cube();
     open.triangles.pop_back();
