@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/mesh/measure.hpp>
 
 #include "model.hpp"
@@ -98,18 +99,18 @@ void tell(Session& session, const boolean::Evaluated& evaluated, const std::stri
                       {"first_crossing", report.first_crossing},
                       {"dangling_facets", report.dangling_facets},
                       {"flush", facts_of(report.flush)}};
-    session.text = fmt::format("{}: {} triangles, volume {}, area {}\n", output,
-                               grouped(evaluated.mesh.triangles.size()), number_text(measures.volume),
-                               number_text(measures.area));
+    session.text = fmt::format("{}: {}, volume {}, area {}\n", output,
+                               counted(evaluated.mesh.triangles.size(), "triangle", "triangles"),
+                               number_text(measures.volume), number_text(measures.area));
     if (report.flush.rounds > 0)
         session.text += fmt::format(
-            "made flush within {}: {} vertices merged, {} edges and {} facets bent by at most {}, {} facets "
-            "removed\n",
-            number_text(report.flush.tolerance), grouped(report.flush.merged_vertices),
-            grouped(report.flush.bent_edges), grouped(report.flush.bent_facets),
-            number_text(report.flush.largest_move), grouped(report.flush.removed_facets));
+            "made flush within {}: {} merged, {} and {} bent by at most {}, {} removed\n",
+            number_text(report.flush.tolerance), counted(report.flush.merged_vertices, "vertex", "vertices"),
+            counted(report.flush.bent_edges, "edge", "edges"),
+            counted(report.flush.bent_facets, "facet", "facets"), number_text(report.flush.largest_move),
+            counted(report.flush.removed_facets, "facet", "facets"));
     if (report.dangling_facets > 0)
-        session.text += fmt::format("{} facets dangle\n", grouped(report.dangling_facets));
+        session.text += counted(report.dangling_facets, "facet dangles\n", "facets dangle\n");
 }
 
 }  // namespace
@@ -152,8 +153,7 @@ void add_boolean_options(Verb* verb, BooleanOutput& options) {
                          "What happens to operands that do not close: reject refuses them, winding closes "
                          "each hole by a cone over its rim and takes as inside what the surface winds about"),
         {"reject", "winding"});
-    verb->add_option("--to", options.format, "Format of the output, instead of by its extension")
-        ->type_name("FORMAT");
+    add_to_option(verb, options.format, mesh_outputs());
 }
 
 Error error_of_operand(Error error, const BooleanOutput& options, const OperandNames& operands) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <octavo/base/counted.hpp>
+
 #include "number_text.hpp"
 
 namespace octavo::cli {
@@ -71,8 +73,9 @@ std::string text_of(const bp_octree::BpOctree& tree, std::span<const std::uint64
     text += fmt::format("solid      {}\n", tree.is_solid
                                                ? "volume " + number_text(tree.solid_volume)
                                                : "none: the surface is open, and enveloped as a surface");
-    text += fmt::format("tree       {} leaves, {} planes, {} triangles\n", grouped(leaves),
-                        grouped(tree.planes.size()), grouped(triangles));
+    text += fmt::format("tree       {}, {}, {}\n", counted(leaves, "leaf", "leaves"),
+                        counted(tree.planes.size(), "plane", "planes"),
+                        counted(triangles, "triangle", "triangles"));
     text += fmt::format("size       {} bytes", grouped(file_bytes));
     if (triangles)
         text += fmt::format(", {:.2f} a triangle",

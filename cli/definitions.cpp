@@ -14,12 +14,13 @@ std::string placeholder_in(const std::string& type_name) {
     return type_name.find_first_of(" {", colon) == std::string::npos ? type_name : type_name.substr(0, colon);
 }
 
-/// "reject|winding" as two words; nothing when there is no choice.
+/// "reject|winding" as two words; nothing when there is no choice. "..." stands for what is too much to tell.
 std::vector<std::string> choices_in(const std::string& value) {
     std::vector<std::string> choices;
     if (value.find('|') == std::string::npos) return choices;
     std::istringstream words(value);
-    for (std::string word; std::getline(words, word, '|');) choices.push_back(word);
+    for (std::string word; std::getline(words, word, '|');)
+        if (word != "...") choices.push_back(word);
     return choices;
 }
 
@@ -47,7 +48,15 @@ OptionDefinition definition_of(const CLI::Option& option) {
     if (!remarks.empty()) definition.description += " (" + remarks + ")";
     definition.required = option.get_required();
     definition.repeats = option.get_expected_max() >= CLI::detail::expected_max_vector_size;
+    definition.common = option.get_group() == common_heading;
     return definition;
+}
+
+std::vector<OptionDefinition> common_definitions(const CLI::App& app) {
+    std::vector<OptionDefinition> definitions;
+    for (const CLI::Option* option : app.get_options())
+        if (OptionDefinition one = definition_of(*option); one.common) definitions.push_back(std::move(one));
+    return definitions;
 }
 
 std::vector<VerbDefinition> definitions_of(const CLI::App& app) {
@@ -58,6 +67,7 @@ std::vector<VerbDefinition> definitions_of(const CLI::App& app) {
         definition.group = verb->get_group();
         definition.summary = verb->get_description();
         for (const CLI::Option* option : verb->get_options()) {
+            if (option->get_group().empty()) continue;
             OptionDefinition one = definition_of(*option);
             (one.names.empty() ? definition.positionals : definition.options).push_back(std::move(one));
         }

@@ -13,6 +13,9 @@ class Option;
 
 namespace octavo::cli {
 
+/// The heading of the options that every verb has.
+inline constexpr const char* common_heading = "Common options";
+
 struct OptionDefinition {
     std::vector<std::string> names;    ///< with dashes, long ones first; empty for a positional
     std::string positional;            ///< its name, for a positional
@@ -21,6 +24,7 @@ struct OptionDefinition {
     std::string description;           ///< with its default and the options that it excludes or needs
     bool required = false;
     bool repeats = false;  ///< takes several values
+    bool common = false;   ///< every verb has it
 };
 
 struct VerbDefinition {
@@ -29,6 +33,10 @@ struct VerbDefinition {
 };
 
 OptionDefinition definition_of(const CLI::Option& option);
+
+/// The options that stand before the verb or after it. Old names of options, which have no heading, are left out here and
+/// below.
+std::vector<OptionDefinition> common_definitions(const CLI::App& app);
 
 /// Every verb, in the order in which it was added.
 std::vector<VerbDefinition> definitions_of(const CLI::App& app);

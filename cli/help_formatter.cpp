@@ -16,7 +16,8 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
     for (const CLI::Option* option : app->get_options()) {
         const OptionDefinition one = definition_of(*option);
         if (one.names.empty())
-            positionals += " " + one.positional + (one.repeats ? " ..." : "");
+            positionals += (one.required ? " " : " [") + one.positional + (one.repeats ? " ..." : "") +
+                           (one.required ? "" : "]");
         else if (one.required)
             required += " " + one.names.back() + " " + one.value;
     }

@@ -2,12 +2,15 @@
 #include "model.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/boolean/expression.hpp>
 #include <octavo/bp_octree/to_mesh.hpp>
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
+#include <octavo/classic/closed_surface.hpp>
 #include <octavo/classic/facet.hpp>
 #include <octavo/classic/to_mesh.hpp>
 #include <octavo/io/assimp_import.hpp>
@@ -22,7 +25,10 @@
 namespace octavo::cli {
 namespace {
 
+/// The error for a model of a kind that the verb does not take; that it cannot be opened at all comes first.
 Error unsupported(const std::string& path, std::string sentence) {
+    if (path != "-" && ::access(path.c_str(), R_OK) != 0)
+        if (const Result<io::ByteBlock> file = io::read_bytes(path); !file) return file.error();
     return in_file({ErrorCode::unsupported, std::move(sentence), {}}, path);
 }
 
@@ -82,6 +88,14 @@ Result<io::ReadMesh> faces_of_bsp_octree(Session& session, const Context& contex
     return read;
 }
 
+std::string check_model_format(const std::string& text) {
+    const std::string name = io::extension_of("." + text);
+    if (io::mesh_format_named(name) || kind_of("", name) != ModelKind::mesh || io::assimp_reads(name))
+        return "";
+    return fmt::format("must be {}, csg, oct, bpo, bso or a format that assimp reads, not {}",
+                       io::mesh_format_names(), text);
+}
+
 ModelKind kind_on_stdin() {
     const Bytes begin = io::beginning_of_stdin();
     const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(begin.data()),
@@ -104,12 +118,18 @@ ModelKind kind_of(const std::string& path, const std::string& format) {
     return ModelKind::mesh;
 }
 
-std::string check_model_format(const std::string& text) {
-    const std::string name = io::extension_of("." + text);
-    if (io::mesh_format_named(name) || kind_of("", name) != ModelKind::mesh || io::assimp_reads(name))
-        return "";
-    return fmt::format("must be {}, csg, oct, bpo, bso or a format that assimp reads, not {}",
-                       io::mesh_format_names(), text);
+void add_from_option(Verb* verb, std::string& format, const std::string& what,
+                     const std::vector<std::string>& formats) {
+    const std::string help = "Format of " + what + ", instead of by its extension";
+    std::string words;
+    for (const io::Format& mesh : io::mesh_formats()) words += std::string(mesh.name) + "|";
+    for (const auto& [name, heading] : {std::pair("--from", "Options"), std::pair("--format", "")}) {
+        Option* option = verb->add_option(name, format, help)->group(heading);
+        if (formats.empty())
+            option->check(check_model_format)->type_name(words + "csg|oct|bpo|bso|...");
+        else
+            take_one_of(option, formats);
+    }
 }
 
 Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const std::string& path,
@@ -198,8 +218,7 @@ void warn_of_losses(Session& session, const io::ReadMesh& read, const std::strin
     }
     if (kinds > 0) session.warn("not kept: " + list);
     if (read.triangulated > 0)
-        session.warn(fmt::format("{} polygon{} became {} triangles", grouped(read.triangulated),
-                                 read.triangulated == 1 ? "" : "s",
+        session.warn(fmt::format("{} became {} triangles", counted(read.triangulated, "polygon", "polygons"),
                                  grouped(read.mesh.triangles.size() - (read.polygons - read.triangulated))));
     // Files that state no unit are taken for millimetres, here and elsewhere.
     if (!read.unit.empty() && read.unit != "millimeter" && format != "3mf")
@@ -233,30 +252,42 @@ Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh) {
     // Inside is where the surface winds about a point at least once: inside out, it winds minus once, or not at all.
     if (!classic::check_some_have_area(snapped->mesh))
         session.warn("none of the facets has any area, so nothing is inside");
-    if (mesh::exact_volume6(snapped->mesh) < 0)
+    // The volume of an open surface depends on where the origin is, and says nothing.
+    if (mesh::exact_volume6(snapped->mesh) < 0 && classic::open_edges(snapped->mesh).empty())
         session.warn(
             "the facets point inwards, so hardly anything counts as inside; octavo repair turns them over");
     return snapped;
 }
 
-Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& context, const std::string& path,
-                                          const std::string& format) {
+void warn_of_closing(Session& session, const mesh::LatticeMesh& mesh) {
+    const std::vector<classic::OpenEdge> edges = classic::open_edges(mesh);
+    if (edges.empty()) return;
+    const mesh::LatticeMesh closed = classic::close_holes(mesh, edges);
+    session.warn("the surface is open; " +
+                 counted(closed.triangles.size() - mesh.triangles.size(), "facet was", "facets were") +
+                 " added to close it");
+    if (mesh::exact_volume6(closed) < 0)
+        session.warn("the facets point inwards, so hardly anything counts as inside the closed surface");
+}
+
+std::string rounding_text(double largest_displacement) {
+    if (largest_displacement == 0) return "";
+    return fmt::format("rounding   moved vertices to the lattice by at most {}\n",
+                       number_text(largest_displacement));
+}
+
+Result<OnLattice> read_on_lattice(Session& session, const Context& context, const std::string& path,
+                                  const std::string& format) {
     if (kind_of(path, format) == ModelKind::bp_octree) {
         Result<bp_octree::ReadBpo> file = read_bp_octree(session, context, path);
         if (!file) return std::move(file).error();
-        return std::move(file->tree.mesh);
+        return OnLattice{std::move(file->tree.mesh), 0};
     }
     Result<io::ReadMesh> read = read_surface(session, context, path, format);
     if (!read) return std::move(read).error();
     Result<mesh::Snapped> snapped = snap(session, read->mesh);
     if (!snapped) return in_file(std::move(snapped).error(), path);
-    if (snapped->report.moved_vertices)
-        session.warn(
-            fmt::format("{} of {} vertices were rounded to the lattice, by at most {}; the answers are exact "
-                        "for the rounded solid",
-                        grouped(snapped->report.moved_vertices), grouped(read->mesh.vertices.size()),
-                        number_text(snapped->report.largest_displacement)));
-    return std::move(snapped->mesh);
+    return OnLattice{std::move(snapped->mesh), snapped->report.largest_displacement};
 }
 
 Error in_file(Error error, const std::string& path) {

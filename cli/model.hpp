@@ -27,8 +27,10 @@ enum class ModelKind { mesh, csg, octree, bp_octree, bsp_octree };
 /// their first bytes, for which this waits.
 ModelKind kind_of(const std::string& path, const std::string& format);
 
-/// For an option that names the format of a model instead of its extension.
-std::string check_model_format(const std::string& text);
+/// Adds --from, the format of the model `what` instead of the one that its extension names; `formats` are those that it
+/// may be, any that verbs read when there are none. It is also taken by its old name, --format.
+void add_from_option(Verb* verb, std::string& format, const std::string& what,
+                     const std::vector<std::string>& formats = {});
 
 /// Reads a mesh. A CSG tree or an octree of either kind is refused, with the verb that makes a mesh of it.
 Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const std::string& path,
@@ -71,13 +73,27 @@ Result<io::WriteReport> write_mesh(Session& session, const Context& context, con
 Result<io::WriteReport> write_octree(Session& session, const Context& context, const std::string& path,
                                      const octree::Octree& tree, const std::string& format);
 
-/// Snaps a mesh to its own lattice. Warns when the surface is inside out or has no area.
+/// Snaps a mesh to its own lattice. Warns when a closed surface is inside out, or when none has area.
 Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh);
 
-/// Reads a surface and snaps it, or takes the triangles of a BP-octree, which are on a lattice already. Warns when
-/// snapping moved vertices, since answers are exact for the snapped solid.
-Result<mesh::LatticeMesh> read_on_lattice(Session& session, const Context& context, const std::string& path,
-                                          const std::string& format = "");
+/// For `--open winding`: warns of the facets that are added where the surface is open, and when what they close is inside
+/// out.
+void warn_of_closing(Session& session, const mesh::LatticeMesh& mesh);
+
+/// A surface whose vertices are points of a lattice. Answers are exact for it.
+struct OnLattice {
+    mesh::LatticeMesh mesh;
+    double largest_displacement =
+        0;  ///< how far rounding to the lattice moved a vertex, in units of the model
+};
+
+/// Reads a surface and snaps it, or takes the triangles of a BP-octree, which are on a lattice already.
+Result<OnLattice> read_on_lattice(Session& session, const Context& context, const std::string& path,
+                                  const std::string& format = "");
+
+/// The line of a text result that tells of it; empty when nothing moved. It is no warning: every model in floats moves
+/// by some 1e-8 of its size.
+std::string rounding_text(double largest_displacement);
 
 /// The same error, with the file that it is about.
 Error in_file(Error error, const std::string& path);

@@ -17,6 +17,12 @@ std::vector<std::string> mesh_format_list() {
     return names;
 }
 
+/// Do both names lead to the same existing file? Then writing would destroy the input.
+bool is_same_file(const std::string& a, const std::string& b) {
+    std::error_code ignored;
+    return a != "-" && b != "-" && std::filesystem::equivalent(a, b, ignored);
+}
+
 }  // namespace
 
 const OutputFormats& mesh_outputs() {
@@ -46,15 +52,10 @@ std::string one_of(const std::vector<std::string>& names) {
     return list;
 }
 
-bool same_file(const std::string& a, const std::string& b) {
-    std::error_code ignored;
-    return a != "-" && b != "-" && std::filesystem::equivalent(a, b, ignored);
-}
-
-Error would_overwrite(const std::string& path) {
-    Error error{ErrorCode::io, "the output would overwrite the input; name another file", {}};
-    error.place.file = path;
-    return error;
+void add_to_option(Verb* verb, std::string& format, const OutputFormats& formats) {
+    std::string words;
+    for (const std::string& name : formats.names) words += (words.empty() ? "" : "|") + name;
+    verb->add_option("--to", format, "Format of the output, instead of by its extension")->type_name(words);
 }
 
 Status check_inputs(Session& session, const std::vector<std::string>& inputs) {
@@ -69,7 +70,11 @@ Result<std::string> settle_output(Session& session, const std::vector<std::strin
     if (Status status = check_inputs(session, inputs); !status) return std::move(status).error();
     if (output.empty()) return std::string();
     for (const std::string& input : inputs)
-        if (same_file(input, output)) return would_overwrite(output);
+        if (is_same_file(input, output)) {
+            Error error = session.usage_error("the output would overwrite the input; name another file");
+            error.place.file = output;
+            return error;
+        }
     if (output == "-" && session.options.json)
         return session.usage_error(
             "--json prints its object on stdout, so the data cannot go there too; name a file");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "session.hpp"
+#include "verb.hpp"
 
 // Where a verb's result goes, settled before any work is done: nobody waits an hour to learn that `.xyz` is no format.
 
@@ -26,18 +27,15 @@ const OutputFormats& picture_outputs();
 /// "stl, obj or ply", for help and messages.
 std::string one_of(const std::vector<std::string>& names);
 
+/// Adds --to, the format of the output instead of the one that its extension names.
+void add_to_option(Verb* verb, std::string& format, const OutputFormats& formats);
+
 /// The format in which `output` is to be written: `format` when it is named, else by the extension; "" when `output`
-/// is empty. Errors: usage when it is none of `formats`, when two inputs are stdin, or when `--json` needs stdout for
-/// itself; io when the output is one of the inputs.
+/// is empty. Errors: usage when it is none of `formats`, when two inputs are stdin, when `--json` needs stdout for
+/// itself, or when the output is one of the inputs.
 Result<std::string> settle_output(Session& session, const std::vector<std::string>& inputs,
                                   const std::string& output, const std::string& format,
                                   const OutputFormats& formats);
-
-/// Do both names lead to the same existing file? Then writing would destroy the input.
-bool same_file(const std::string& a, const std::string& b);
-
-/// The error for `same_file`.
-Error would_overwrite(const std::string& path);
 
 /// The part of it that concerns inputs, for verbs without an output.
 Status check_inputs(Session& session, const std::vector<std::string>& inputs);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/io/points.hpp>
 
 namespace octavo::cli {
@@ -23,9 +24,7 @@ Option* add_point_query_options(Verb* verb, PointQueryOptions& options, const st
     Option* open = take_one_of(
         verb->add_option("--open", options.open, "An open surface: reject it, or close it and go by winding"),
         {"reject", "winding"});
-    verb->add_option("--format", options.model_format, "Format of MODEL, instead of by its extension")
-        ->check(check_model_format)
-        ->type_name("FORMAT");
+    add_from_option(verb, options.model_format, "MODEL");
     take_one_of(verb->add_option("--points-format", options.points_format,
                                  "Format of POINTS, instead of by its extension"),
                 {"csv", "xyz", "npy", "ply"});
@@ -46,17 +45,20 @@ Result<AnswerOutput> settle_answers(Session& session, const PointQueryOptions& o
 
 Result<std::vector<Vec3>> read_points(Session& session, const Context& context,
                                       const PointQueryOptions& options, const char* remark) {
-    session.inputs.push_back(options.points);
     Result<io::ReadPoints> read = session.timed(
         "read", [&] { return io::read_points(options.points, {options.points_format}, context); });
-    if (!read) return std::move(read).error();
+    if (!read) {
+        session.inputs = {options.model, options.points};
+        return std::move(read).error();
+    }
     session.warn(read->warnings);
     const auto nowhere = std::count_if(read->points.begin(), read->points.end(), [](Vec3 p) {
         return std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z);
     });
     if (nowhere)
-        session.warn(fmt::format("{} points have a coordinate that is not a number; {}",
-                                 grouped(static_cast<std::uint64_t>(nowhere)), remark));
+        session.warn(fmt::format("{} a coordinate that is not a number; {}",
+                                 counted(static_cast<std::uint64_t>(nowhere), "point has", "points have"),
+                                 remark));
     return std::move(read->points);
 }
 

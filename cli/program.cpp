@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -28,9 +29,14 @@ constexpr const char* footer =
     "\n"
     "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad input, 4 a limit was reached, 5 internal error, "
     "130 interrupted.\n"
-    "repair ends with 0 when it has written a file, solid or not: see \"valid\" of --json.\n"
+    "2 stands for what is wrong whatever the files hold: an unknown option, one that the formats have no use "
+    "for, "
+    "an output that is an input.\n"
+    "check answers no when the mesh is no solid. repair ends with 0 when it has written a file, solid or "
+    "not: see "
+    "\"valid\" of --json.\n"
     "\n"
-    "Help on one verb: octavo VERB --help. The manual: octavo man | man -l -";
+    "Help on one verb: octavo help VERB. The manual: octavo man | man -l -";
 
 constexpr const char* verb_footer = "Formats and exit codes: octavo --help";
 
@@ -40,11 +46,28 @@ std::string with_suggestion(const std::string& sentence, const std::string& word
     return meant.empty() ? sentence : sentence + "; did you mean " + meant + "?";
 }
 
-/// What is wrong with the command line when no verb was found in it.
-std::string sentence_without_verb(const CLI::App& app, int argc, const char* const* argv) {
-    if (argc < 2) return "a verb is missing";
-    const std::string first = argv[1];
-    if (first.starts_with('-')) return "the verb comes first, and " + first + " is none";
+bool is_option(const std::string& word) { return word.size() > 1 && word.starts_with('-'); }
+
+/// The long names; a letter is near to any other, so that short ones are no suggestions.
+std::vector<std::string> long_names(const std::vector<OptionDefinition>& options) {
+    std::vector<std::string> names;
+    for (const OptionDefinition& option : options)
+        std::copy_if(option.names.begin(), option.names.end(), std::back_inserter(names),
+                     [](const std::string& name) { return name.starts_with("--"); });
+    return names;
+}
+
+/// The same for an option that is not known. One letter is near to nothing.
+std::string with_option(const std::string& sentence, const std::string& word,
+                        const std::vector<OptionDefinition>& known) {
+    return word.size() > 2 ? with_suggestion(sentence, word, long_names(known)) : sentence;
+}
+
+/// What is wrong with the command line when no verb was found in it, among words that mean nothing.
+std::string sentence_without_verb(const CLI::App& app, const std::vector<std::string>& words) {
+    if (words.empty()) return "a verb is missing";
+    const std::string& first = words.front();
+    if (is_option(first)) return with_option("there is no option " + first, first, common_definitions(app));
     std::vector<std::string> verbs;
     for (const VerbDefinition& verb : definitions_of(app)) verbs.push_back(verb.name);
     return with_suggestion("there is no verb " + first, first, verbs);
@@ -68,31 +91,39 @@ std::string sentence_of_mismatch(const std::string& message) {
     return message;
 }
 
+/// What is wrong with an option that stands where nobody takes it.
+std::string sentence_of_option(const std::string& option, const std::string& verb,
+                               const std::vector<OptionDefinition>& known) {
+    const bool stands_before = std::any_of(known.begin(), known.end(), [&](const OptionDefinition& one) {
+        return std::find(one.names.begin(), one.names.end(), option) != one.names.end();
+    });
+    if (stands_before)
+        return fmt::format("{} belongs to {} and stands behind it: octavo {} {}", option, verb, verb, option);
+    return with_option(fmt::format("{} has no option {}", verb, option), option, known);
+}
+
 /// What is wrong with the command line, in the words of this program.
-std::string sentence_of(const CLI::ParseError& error, const CLI::App& app, int argc,
-                        const char* const* argv) {
+std::string sentence_of(const CLI::ParseError& error, const CLI::App& app) {
+    const std::string what =
+        error.get_name() == "ArgumentMismatch" ? sentence_of_mismatch(error.what()) : error.what();
     const std::vector<const CLI::App*> chosen =
         app.get_subcommands([](const CLI::App* verb) { return verb->parsed(); });
-    if (chosen.empty()) return sentence_without_verb(app, argc, argv);
     // What is there too much explains best, also where something else is missing.
     const std::vector<std::string> extras = app.remaining(true);
-    if (extras.empty())
-        return error.get_name() == "ArgumentMismatch" ? sentence_of_mismatch(error.what()) : error.what();
-    const auto extra = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
-        return word.size() > 1 && word.starts_with('-');
-    });
-    if (extra == extras.end())
-        return error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)
-                   ? fmt::format("{} takes no further argument {}", chosen.front()->get_name(),
-                                 extras.front())
-                   : error.what();
-    std::vector<std::string> options;
-    for (const VerbDefinition& verb : definitions_of(app))
-        if (verb.name == chosen.front()->get_name())
-            for (const OptionDefinition& one : verb.options)
-                options.insert(options.end(), one.names.begin(), one.names.end());
-    return with_suggestion(fmt::format("{} has no option {}", chosen.front()->get_name(), *extra), *extra,
-                           options);
+    // Its name is that of the verb.
+    const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    if (chosen.empty())
+        return is_extra || error.get_name() == "RequiredError" ? sentence_without_verb(app, extras) : what;
+    const std::string verb = chosen.front()->get_name();
+    const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+    if (option == extras.end())
+        return is_extra && !extras.empty()
+                   ? fmt::format("{} takes no further argument {}", verb, extras.front())
+                   : what;
+    std::vector<OptionDefinition> known;
+    for (VerbDefinition& definition : definitions_of(app))
+        if (definition.name == verb) known = std::move(definition.options);
+    return sentence_of_option(*option, verb, known);
 }
 
 /// Whether an object is wanted on stdout; asked when the command line could not be parsed.
@@ -108,6 +139,7 @@ Program::Program() : app_(std::make_unique<CLI::App>("Exact solid modelling on o
     app_->require_subcommand(1);
     app_->footer(footer);
     app_->formatter(std::make_shared<HelpFormatter>());
+    add_common_options(verbs_.emplace_back(app_.get()));
 
     add_info(*this);
     add_check(*this);
@@ -128,6 +160,7 @@ Program::Program() : app_(std::make_unique<CLI::App>("Exact solid modelling on o
 
     add_completion(*this);
     add_man(*this);
+    add_help(*this);
 }
 
 Program::~Program() = default;
@@ -148,7 +181,7 @@ Verb* Program::verb(const std::string& name, const std::string& group, const std
 
 void Program::add_common_options(Verb& verb) {
     CommonOptions& options = session_.options;
-    const std::string group = "Common options";
+    const std::string group = common_heading;
     verb.add_flag("--json", options.json, "Print one JSON object on stdout, also when it fails")
         ->group(group);
     verb.add_flag("-q,--quiet", options.quiet, "Print errors only")->group(group);
@@ -179,7 +212,7 @@ int Program::main(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         session_.options.json = session_.options.json || names_json(argc, argv);
         for (const CLI::App* verb : app_->get_subcommands()) session_.command = verb->get_name();
-        return session_.finish(session_.usage_error(sentence_of(error, *app_, argc, argv)));
+        return session_.finish(session_.usage_error(sentence_of(error, *app_)));
     }
     try {
         return session_.finish(chosen_(session_));

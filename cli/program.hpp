@@ -32,6 +32,7 @@ class Program {
     int main(int argc, const char* const* argv);
 
   private:
+    /// To a verb, or to the program itself: they stand before the verb or after it.
     void add_common_options(Verb& verb);
 
     std::unique_ptr<CLI::App> app_;
@@ -56,6 +57,7 @@ void add_boolean(Program& program);
 void add_eval(Program& program);
 void add_hexmesh(Program& program);
 void add_mill(Program& program);
+void add_help(Program& program);
 void add_completion(Program& program);
 void add_man(Program& program);
 

@@ -25,7 +25,7 @@ Json json_of(const mesh::Report& report) {
             {"shells", report.shells},
             {"cavities", report.cavities},
             {"nested_bodies", report.nested_bodies},
-            {"snap_displacement", report.snap_displacement}};
+            {"largest_displacement", report.largest_displacement}};
 }
 
 }  // namespace octavo::cli

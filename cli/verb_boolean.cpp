@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
-#include <cmath>
 #include <optional>
 
 #include <octavo/boolean/evaluate.hpp>
@@ -8,6 +6,7 @@
 
 #include "boolean_facts.hpp"
 #include "model.hpp"
+#include "numbers.hpp"
 #include "program.hpp"
 
 // `octavo union A B … -o OUT`, `intersection`, `difference` and `xor`: exact set operations on any number of meshes,
@@ -34,18 +33,9 @@ struct Transform {
 std::optional<Transform> parse_transform(const std::string& text) {
     const std::size_t colon = text.rfind(':');
     if (colon == std::string::npos || colon == 0) return std::nullopt;
-    std::vector<double> numbers;
-    const char* at = text.data() + colon + 1;
-    const char* const end = text.data() + text.size();
-    while (true) {
-        double number = 0;
-        const auto [after, error] = std::from_chars(at, end, number);
-        if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
-        numbers.push_back(number);
-        if (after == end) break;
-        if (*after != ',') return std::nullopt;
-        at = after + 1;
-    }
+    const std::optional<std::vector<double>> parsed = parse_numbers(std::string_view(text).substr(colon + 1));
+    if (!parsed) return std::nullopt;
+    const std::vector<double>& numbers = *parsed;
     const bool affine = numbers.size() == 12 || (numbers.size() == 16 && numbers[12] == 0 &&
                                                  numbers[13] == 0 && numbers[14] == 0 && numbers[15] == 1);
     if (!affine) return std::nullopt;

@@ -83,8 +83,7 @@ void add_bsp(Program& program) {
         ->check(whole_number(0, 26))
         ->type_name("N")
         ->capture_default_str();
-    verb->add_option("--from", arguments->format, "Format of the input, instead of by its extension")
-        ->type_name("FORMAT");
+    add_from_option(verb, arguments->format, "FILE");
 }
 
 }  // namespace octavo::cli

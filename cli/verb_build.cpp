@@ -39,10 +39,10 @@ Result<ExitCode> build(Session& session, const BuildOptions& options) {
     static const OutputFormats formats{"BP-octrees", {"bpo"}, "bpo"};
     const Result<std::string> format = settle_output(session, {options.input}, options.output, "", formats);
     if (!format) return format.error();
-    Result<mesh::LatticeMesh> mesh = read_on_lattice(session, context, options.input, options.format);
-    if (!mesh) return std::move(mesh).error();
+    const Result<OnLattice> surface = read_on_lattice(session, context, options.input, options.format);
+    if (!surface) return surface.error();
     Result<bp_octree::BpOctree> tree =
-        session.timed("build", [&] { return bp_octree::build(*mesh, building(options), context); });
+        session.timed("build", [&] { return bp_octree::build(surface->mesh, building(options), context); });
     if (!tree) return in_file(std::move(tree).error(), options.input);
     if (!tree->is_solid)
         session.warn("the surface is open; it is enveloped as a surface, and nothing counts as inside");
@@ -65,8 +65,9 @@ Result<ExitCode> build(Session& session, const BuildOptions& options) {
     }
     const auto to_level = bp_octree::bytes_to_level(bytes);
     session.result = json_of(*tree, *to_level, bytes.size());
+    session.result["largest_displacement"] = surface->largest_displacement;
     if (options.certify) session.result["certified"] = true;
-    session.text = text_of(*tree, *to_level, bytes.size());
+    session.text = text_of(*tree, *to_level, bytes.size()) + rounding_text(surface->largest_displacement);
     if (options.certify) session.text += "certified  every colour, winding number and plane\n";
     return ExitCode::ok;
 }
@@ -108,9 +109,7 @@ void add_build(Program& program) {
         ->type_name("PART")
         ->capture_default_str();
     verb->add_flag("--certify", options->certify, "Prove the tree again from its triangles");
-    verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
-        ->check(check_model_format)
-        ->type_name("FORMAT");
+    add_from_option(verb, options->format, "FILE");
 }
 
 }  // namespace octavo::cli

@@ -37,9 +37,7 @@ void add_check(Program& program) {
     Verb* verb = program.verb("check", "Inspect", "Tell whether a mesh is a solid, and if not, why and where",
                               [options](Session& session) { return check(session, *options); });
     verb->add_option("FILE", options->input, "The mesh; - is stdin")->required()->type_name("FILE");
-    verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
-        ->check(check_model_format)
-        ->type_name("FORMAT");
+    add_from_option(verb, options->format, "FILE");
     verb->add_option("--faces", options->most_faces, "With --json: most facets to list in a problem")
         ->check(whole_number(0, 4'000'000'000))
         ->type_name("N")

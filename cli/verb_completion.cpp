@@ -39,11 +39,19 @@ std::string in_quotes(const std::string& text) {
     return result + "'";
 }
 
-std::string bash_completion(const Definitions& verbs) {
-    std::string names, options, choices;
+/// The words that the first argument of the verb is one of; none where it is a file.
+std::vector<std::string> first_words(const VerbDefinition& verb) {
+    return verb.positionals.empty() ? std::vector<std::string>{} : verb.positionals.front().choices;
+}
+
+std::string bash_completion(const Definitions& verbs, const std::vector<OptionDefinition>& common) {
+    std::string names, options, choices, before_verb;
+    for (const OptionDefinition& option : common) before_verb += " " + joined(option.names);
     for (const VerbDefinition& verb : verbs) {
         names += verb.name + " ";
         std::string of_verb;
+        if (const std::vector<std::string> words = first_words(verb); !words.empty())
+            choices += fmt::format("        \"{0} {0}\") choices=\"{1}\" ;;\n", verb.name, joined(words));
         for (const OptionDefinition& option : verb.options) {
             of_verb += (of_verb.empty() ? "" : " ") + joined(option.names);
             for (const std::string& name : option.names)
@@ -58,7 +66,7 @@ _octavo() {{
     local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} verb=${{COMP_WORDS[1]}}
     local options="" choices=""
     if [ "$COMP_CWORD" -eq 1 ]; then
-        COMPREPLY=($(compgen -W "{}--help --version" -- "$word"))
+        COMPREPLY=($(compgen -W "{}--help --version{}" -- "$word"))
         return
     fi
     case "$verb $before" in
@@ -75,7 +83,7 @@ _octavo() {{
 }}
 complete -o filenames -F _octavo octavo
 )",
-                       names, choices, options);
+                       names, before_verb, choices, options);
 }
 
 /// One line a name of the option, in the words of zsh's _arguments.
@@ -97,6 +105,9 @@ std::string zsh_completion(const Definitions& verbs) {
         names += fmt::format("            {}\n", in_quotes(verb.name + ":" + escaped(verb.summary, ":\\")));
         std::string options;
         for (const OptionDefinition& option : verb.options) options += zsh_option(option);
+        if (const std::vector<std::string> words = first_words(verb); !words.empty())
+            options += fmt::format(" \\\n                '1:{}:({})'", verb.positionals.front().positional,
+                                   joined(words));
         cases += fmt::format("        {})\n            _arguments{} \\\n                '*:file:_files' ;;\n",
                              verb.name, options);
     }
@@ -124,7 +135,10 @@ std::string fish_completion(const Definitions& verbs) {
     for (const VerbDefinition& verb : verbs)
         script += fmt::format("complete -c octavo -n __fish_use_subcommand -f -a {} -d {}\n", verb.name,
                               in_quotes(verb.summary));
-    for (const VerbDefinition& verb : verbs)
+    for (const VerbDefinition& verb : verbs) {
+        if (const std::vector<std::string> words = first_words(verb); !words.empty())
+            script += fmt::format("complete -c octavo -n '__fish_seen_subcommand_from {}' -f -a {}\n",
+                                  verb.name, in_quotes(joined(words)));
         for (const OptionDefinition& option : verb.options) {
             script += fmt::format("complete -c octavo -n '__fish_seen_subcommand_from {}'", verb.name);
             for (const std::string& name : option.names)
@@ -135,13 +149,15 @@ std::string fish_completion(const Definitions& verbs) {
                 script += " -r";
             script += " -d " + in_quotes(option.description) + "\n";
         }
+    }
     return script;
 }
 
-std::string completion(const std::string& shell, const Definitions& verbs) {
+std::string completion(const std::string& shell, const CLI::App& app) {
+    const Definitions verbs = definitions_of(app);
     if (shell == "zsh") return zsh_completion(verbs);
     if (shell == "fish") return fish_completion(verbs);
-    return bash_completion(verbs);
+    return bash_completion(verbs, common_definitions(app));
 }
 
 }  // namespace
@@ -150,7 +166,7 @@ void add_completion(Program& program) {
     const auto shell = std::make_shared<std::string>();
     Verb* verb = program.verb("completion", "Setting up", "Print a completion script for a shell",
                               [&program, shell](Session& session) {
-                                  session.text = completion(*shell, definitions_of(program.app()));
+                                  session.text = completion(*shell, program.app());
                                   session.result = {{"shell", *shell}, {"script", session.text}};
                                   return ExitCode::ok;
                               });

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/octree/linear_octree.hpp>
 #include <octavo/query/inside.hpp>
 #include <octavo/query/stored_inside.hpp>
@@ -16,6 +17,11 @@ namespace octavo::cli {
 namespace {
 
 using Sides = std::vector<query::Side>;
+
+struct Answers {
+    Sides sides;
+    double largest_displacement = 0;  ///< of the model's vertices, by rounding to the lattice
+};
 
 /// Cells are half-open, so a point in a wall goes with the cell on its high side.
 query::Side side_in(const octree::LinearOctree& tree, Vec3 point) {
@@ -46,9 +52,8 @@ Result<Sides> sides_in_octree(Session& session, const Context& context, const Po
     });
     const auto undecided = std::count(sides.begin(), sides.end(), query::Side::on);
     if (undecided)
-        session.warn(
-            fmt::format("{} points lie in gray cells: the octree does not decide them; they are told as 0",
-                        grouped(static_cast<std::uint64_t>(undecided))));
+        session.warn(counted(static_cast<std::uint64_t>(undecided), "point lies", "points lie") +
+                     " in gray cells, which the octree does not decide; the answer there is 0");
     return sides;
 }
 
@@ -72,24 +77,32 @@ Result<Sides> sides_from_file(Session& session, const PointQueryOptions& options
     });
 }
 
-Result<Sides> sides_of_surface(Session& session, const Context& context, const PointQueryOptions& options,
-                               const std::vector<Vec3>& points) {
-    Result<mesh::LatticeMesh> solid = read_on_lattice(session, context, options.model, options.model_format);
-    if (!solid) return std::move(solid).error();
+Result<Answers> sides_of_surface(Session& session, const Context& context, const PointQueryOptions& options,
+                                 const std::vector<Vec3>& points) {
+    const Result<OnLattice> solid = read_on_lattice(session, context, options.model, options.model_format);
+    if (!solid) return solid.error();
+    if (options.policy() == classic::OpenPolicy::winding) warn_of_closing(session, solid->mesh);
     query::InsideOptions asking;
     asking.open = options.policy();
     Result<query::InsideQuery> inside =
-        session.timed("build", [&] { return query::InsideQuery::build(*solid, asking, context); });
+        session.timed("build", [&] { return query::InsideQuery::build(solid->mesh, asking, context); });
     if (!inside) return in_file(std::move(inside).error(), options.model);
-    return session.timed("query", [&] { return (*inside)(points, context); });
+    return Answers{session.timed("query", [&] { return (*inside)(points, context); }),
+                   solid->largest_displacement};
 }
 
-Result<Sides> sides_of(Session& session, const Context& context, const PointQueryOptions& options,
-                       const std::vector<Vec3>& points) {
+Result<Answers> answers_without_rounding(Result<Sides> sides) {
+    if (!sides) return std::move(sides).error();
+    return Answers{std::move(*sides), 0};
+}
+
+Result<Answers> answers_of(Session& session, const Context& context, const PointQueryOptions& options,
+                           const std::vector<Vec3>& points) {
     const ModelKind kind = kind_of(options.model, options.model_format);
-    if (kind == ModelKind::octree) return sides_in_octree(session, context, options, points);
+    if (kind == ModelKind::octree)
+        return answers_without_rounding(sides_in_octree(session, context, options, points));
     if (kind == ModelKind::bp_octree && options.model != "-" && points.size() <= few_points)
-        return sides_from_file(session, options, points);
+        return answers_without_rounding(sides_from_file(session, options, points));
     return sides_of_surface(session, context, options, points);
 }
 
@@ -98,21 +111,28 @@ Result<ExitCode> contains(Session& session, const PointQueryOptions& options) {
     const Result<AnswerOutput> output = settle_answers(session, options);
     if (!output) return output.error();
     const Result<std::vector<Vec3>> points =
-        read_points(session, context, options, "they are told as outside");
+        read_points(session, context, options, "the answer there is outside");
     if (!points) return points.error();
-    const Result<Sides> sides = sides_of(session, context, options, *points);
-    if (!sides) return sides.error();
+    const Result<Answers> answers = answers_of(session, context, options, *points);
+    session.inputs.push_back(options.points);
+    if (!answers) return answers.error();
+    const Sides& sides = answers->sides;
     if (context.cancelled()) return Context::cancelled_error();
 
-    std::vector<std::int8_t> column(sides->size());
-    std::transform(sides->begin(), sides->end(), column.begin(),
+    std::vector<std::int8_t> column(sides.size());
+    std::transform(sides.begin(), sides.end(), column.begin(),
                    [](query::Side side) { return static_cast<std::int8_t>(side); });
     const auto count = [&](int side) {
         return static_cast<std::uint64_t>(std::count(column.begin(), column.end(), side));
     };
-    session.result = {{"inside", count(-1)}, {"outside", count(1)}, {"on", count(0)}};
-    session.text = fmt::format("{} points: {} inside, {} on, {} outside\n", grouped(column.size()),
-                               grouped(count(-1)), grouped(count(0)), grouped(count(1)));
+    session.result = {{"inside", count(-1)},
+                      {"outside", count(1)},
+                      {"on", count(0)},
+                      {"largest_displacement", answers->largest_displacement}};
+    session.text =
+        fmt::format("{}: {} inside, {} on, {} outside\n", counted(column.size(), "point", "points"),
+                    grouped(count(-1)), grouped(count(0)), grouped(count(1))) +
+        rounding_text(answers->largest_displacement);
     if (Status status = deliver(session, context, *output, {{"side", std::span<const std::int8_t>(column)}});
         !status)
         return std::move(status).error();

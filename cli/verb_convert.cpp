@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/bp_octree/to_mesh.hpp>
+#include <octavo/io/format.hpp>
+#include <octavo/io/three_mf_parts.hpp>
 
 #include "model.hpp"
 #include "program.hpp"
@@ -12,12 +15,15 @@
 // `octavo convert IN OUT`: from one format to another, without changing the geometry. A CSG tree becomes the mesh that
 // it evaluates to, an octree the boundary of its black cells, or another form of itself, a BP-octree its exact triangles
 // or the envelopes of a level.
+//
+// --unit is the unit that the numbers of OUT mean. The numbers of a file that states its unit are scaled to it, so that
+// the model keeps its size; those of others are taken to be in it.
 
 namespace octavo::cli {
 namespace {
 
 struct ConvertOptions {
-    std::string input, output, from, to, encoding = "auto", unit;
+    std::string input, output, named_output, from, to, encoding = "auto", unit;
     std::optional<int> level;  ///< of a BP-octree; none is the exact triangles
     bool without_cell_faces = false;
 };
@@ -44,6 +50,37 @@ Result<ExitCode> convert_octree(Session& session, const Context& context, const 
     return ExitCode::ok;
 }
 
+Error unit_is_useless(Session& session, const ConvertOptions& options, const std::string& format) {
+    return session.usage_error(fmt::format("--unit {}: {} states no unit, and {} has none to convert from",
+                                           options.unit, format, options.input));
+}
+
+/// What of the command line alone is wrong: options that the formats have no use for.
+Status check_use(Session& session, const ConvertOptions& options, const std::string& format) {
+    const ModelKind kind = kind_of(options.input, options.from);
+    if (options.level && kind != ModelKind::bp_octree)
+        return session.usage_error("--level is for BP-octrees (.bpo), and " + options.input + " is none");
+    if (options.encoding != "auto" && format != "stl" && format != "ply")
+        return session.usage_error(fmt::format("--encoding {}: only stl and ply have a choice, {} does not",
+                                               options.encoding, format));
+    if (options.unit.empty() || format == "3mf") return Done{};
+    const std::string input_format =
+        io::extension_of(options.from.empty() ? options.input : "." + options.from);
+    const bool states_none =
+        kind != ModelKind::mesh || (io::mesh_format_named(input_format) && input_format != "3mf");
+    if (states_none) return unit_is_useless(session, options, format);
+    return Done{};
+}
+
+/// What the numbers are multiplied by to be in `unit`; 1 where the file states none.
+double scale_to(io::ReadMesh& read, const std::string& unit) {
+    if (unit.empty() || read.unit.empty() || read.unit == unit) return 1;
+    const double scale = read.millimetres_per_unit / io::millimetres_in(unit);
+    for (Vec3& vertex : read.mesh.vertices) vertex = scale * vertex;
+    read.unit = unit;
+    return scale;
+}
+
 /// The envelopes of one level of a BP-octree.
 Result<io::ReadMesh> read_envelopes(Session& session, const Context& context, const ConvertOptions& options) {
     bp_octree::ReadBpoOptions reading;
@@ -66,6 +103,10 @@ Result<ExitCode> convert_surface(Session& session, const Context& context, const
     Result<io::ReadMesh> read = options.level ? read_envelopes(session, context, options)
                                               : read_surface(session, context, options.input, options.from);
     if (!read) return std::move(read).error();
+    if (!options.unit.empty() && format != "3mf" && read->unit.empty())
+        return unit_is_useless(session, options, format);
+    const std::string stated = read->unit;
+    const double scale = scale_to(*read, options.unit);
     io::WriteOptions writing{.format = format, .encoding = encoding_of(options.encoding)};
     if (!options.unit.empty()) {
         writing.unit = options.unit;
@@ -79,25 +120,37 @@ Result<ExitCode> convert_surface(Session& session, const Context& context, const
                       {"triangles", read->mesh.triangles.size()},
                       {"format", report->format},
                       {"bytes", report->bytes},
-                      {"largest_displacement", report->largest_displacement}};
-    session.text = fmt::format("{}: {} vertices, {} triangles, {} bytes of {}\n", options.output,
-                               grouped(read->mesh.vertices.size()), grouped(read->mesh.triangles.size()),
+                      {"largest_displacement", report->largest_displacement},
+                      {"scale", scale}};
+    session.text = fmt::format("{}: {}, {}, {} bytes of {}\n", options.output,
+                               counted(read->mesh.vertices.size(), "vertex", "vertices"),
+                               counted(read->mesh.triangles.size(), "triangle", "triangles"),
                                grouped(report->bytes), report->format);
+    if (scale != 1)
+        session.text +=
+            fmt::format("scaled by {}: from {} to {}\n", number_text(scale), stated, options.unit);
     return ExitCode::ok;
 }
 
-Result<ExitCode> convert(Session& session, const ConvertOptions& options) {
-    const Context context = session.context();
-    const ModelKind kind = kind_of(options.input, options.from);
-    if (options.level && kind != ModelKind::bp_octree)
-        return session.usage_error("--level is for BP-octrees (.bpo), and " + options.input + " is none");
+/// Meshes, and what only octrees become.
+OutputFormats all_outputs() {
     OutputFormats formats = mesh_outputs();
-    if (kind == ModelKind::octree)
-        formats.names.insert(formats.names.end(), octree_outputs().names.begin(),
-                             octree_outputs().names.end());
-    const Result<std::string> format =
-        settle_output(session, {options.input}, options.output, options.to, formats);
+    formats.names.insert(formats.names.end(), octree_outputs().names.begin(), octree_outputs().names.end());
+    return formats;
+}
+
+Result<ExitCode> convert(Session& session, ConvertOptions options) {
+    const Context context = session.context();
+    if (options.output.empty() == options.named_output.empty())
+        return session.usage_error(options.output.empty()
+                                       ? "the file to write is missing: octavo convert IN OUT"
+                                       : "the file to write is named twice, by OUT and by -o");
+    if (options.output.empty()) options.output = options.named_output;
+    const bool is_octree = kind_of(options.input, options.from) == ModelKind::octree;
+    const Result<std::string> format = settle_output(session, {options.input}, options.output, options.to,
+                                                     is_octree ? all_outputs() : mesh_outputs());
     if (!format) return format.error();
+    if (const Status useful = check_use(session, options, *format); !useful) return useful.error();
     return is_among(octree_outputs().names, *format) ? convert_octree(session, context, options, *format)
                                                      : convert_surface(session, context, options, *format);
 }
@@ -117,16 +170,15 @@ void add_convert(Program& program) {
     verb->add_option("OUT", options->output,
                      "The file to write: " + one_of(mesh_outputs().names) +
                          ", and of an octree also oct, vtu or htg; - is stdout")
-        ->required()
         ->type_name("FILE");
-    verb->add_option("--from", options->from, "Format of IN, instead of by its extension")
-        ->check(check_model_format)
-        ->type_name("FORMAT");
-    verb->add_option("--to", options->to, "Format of OUT, instead of by its extension")->type_name("FORMAT");
+    verb->add_option("-o,--output", options->named_output, "Another way to name OUT")->type_name("FILE");
+    add_from_option(verb, options->from, "IN");
+    add_to_option(verb, options->to, all_outputs());
     take_one_of(verb->add_option("--encoding", options->encoding, "For stl and ply; auto is binary"),
                 {"auto", "binary", "ascii"});
     take_one_of(verb->add_option("--unit", options->unit,
-                                 "Unit of length to state in 3mf; that of IN, or millimeter, by default"),
+                                 "Unit of the numbers in OUT; those of IN are scaled to it where IN states "
+                                 "another, as 3mf does. By default that of IN, or millimeter"),
                 {"micron", "millimeter", "centimeter", "inch", "foot", "meter"});
     Option* level =
         verb->add_option("--level", options->level,

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/query/closest.hpp>
 #include <octavo/query/envelope_distance.hpp>
 
@@ -25,6 +26,7 @@ struct DistanceOptions : PointQueryOptions {
 struct Columns {
     std::vector<double> distance, x, y, z;
     std::vector<std::uint32_t> triangle;
+    double largest_displacement = 0;  ///< of the model's vertices, by rounding to the lattice
 
     void append(const std::vector<query::Closest>& answers) {
         for (const query::Closest& answer : answers) {
@@ -38,20 +40,24 @@ struct Columns {
 };
 
 Result<Columns> answers_of(Session& session, const Context& context, const DistanceOptions& options) {
-    const Result<std::vector<Vec3>> points = read_points(session, context, options, "so are their distances");
+    const Result<std::vector<Vec3>> points =
+        read_points(session, context, options, "so is the distance there");
     if (!points) return points.error();
-    Result<mesh::LatticeMesh> solid = read_on_lattice(session, context, options.model, options.model_format);
-    if (!solid) return std::move(solid).error();
+    const Result<OnLattice> solid = read_on_lattice(session, context, options.model, options.model_format);
+    session.inputs.push_back(options.points);
+    if (!solid) return solid.error();
+    if (options.policy() == classic::OpenPolicy::winding) warn_of_closing(session, solid->mesh);
     query::ClosestOptions asking;
     if (options.is_unsigned) asking.sign = query::ClosestOptions::Sign::none;
     asking.inside.open = options.policy();
     Result<query::ClosestQuery> query =
-        session.timed("build", [&] { return query::ClosestQuery::build(*solid, asking, context); });
+        session.timed("build", [&] { return query::ClosestQuery::build(solid->mesh, asking, context); });
     if (!query) return in_file(std::move(query).error(), options.model);
     return session.timed("query", [&]() -> Result<Columns> {
         // Answers have four times the bytes of the columns; so many at a time are enough to sort well.
         constexpr std::size_t block = std::size_t{1} << 20;
         Columns columns;
+        columns.largest_displacement = solid->largest_displacement;
         const std::span<const Vec3> all = *points;
         for (std::size_t begin = 0; begin < all.size(); begin += block) {
             columns.append((*query)(all.subspan(begin, std::min(block, all.size() - begin)), context));
@@ -64,12 +70,14 @@ Result<Columns> answers_of(Session& session, const Context& context, const Dista
 
 /// Lower bounds from one level of a BP-octree, of which the beginning is enough.
 Result<Columns> bounds_of(Session& session, const Context& context, const DistanceOptions& options) {
-    const Result<std::vector<Vec3>> points = read_points(session, context, options, "so are their distances");
+    const Result<std::vector<Vec3>> points =
+        read_points(session, context, options, "so is the distance there");
     if (!points) return points.error();
     bp_octree::ReadBpoOptions reading;
     reading.levels = options.level;
     reading.partial = bp_octree::ReadBpoOptions::Partial::accept;
     Result<bp_octree::ReadBpo> file = read_bp_octree(session, context, options.model, reading);
+    session.inputs.push_back(options.points);
     if (!file) return std::move(file).error();
     Columns columns;
     columns.distance = session.timed(
@@ -103,19 +111,21 @@ Result<ExitCode> distance(Session& session, const DistanceOptions& options) {
     if (!output) return output.error();
     const bool is_bound = options.level != DistanceOptions::exact;
     if (is_bound && kind_of(options.model, options.model_format) != ModelKind::bp_octree)
-        return Error{ErrorCode::unsupported, "only BP-octrees (.bpo) have levels", {}};
+        return session.usage_error("--level is for BP-octrees (.bpo), and " + options.model + " is none");
     const Result<Columns> answers =
         is_bound ? bounds_of(session, context, options) : answers_of(session, context, options);
     if (!answers) return answers.error();
     const Columns& columns = *answers;
     session.result = summary_of(columns.distance);
-    session.text =
-        session.result["mean"].is_null()
-            ? fmt::format("{} points, none of them at a finite distance\n", grouped(columns.distance.size()))
-            : fmt::format("{} points: distance {} to {}, mean {}\n", grouped(columns.distance.size()),
-                          number_text(session.result["min"].get<double>()),
-                          number_text(session.result["max"].get<double>()),
-                          number_text(session.result["mean"].get<double>()));
+    if (!is_bound) session.result["largest_displacement"] = columns.largest_displacement;
+    const std::string points = counted(columns.distance.size(), "point", "points");
+    session.text = session.result["mean"].is_null()
+                       ? points + ", none of them at a finite distance\n"
+                       : fmt::format("{}: distance {} to {}, mean {}\n", points,
+                                     number_text(session.result["min"].get<double>()),
+                                     number_text(session.result["max"].get<double>()),
+                                     number_text(session.result["mean"].get<double>()));
+    session.text += rounding_text(columns.largest_displacement);
     std::vector<io::Column> told{{"distance", std::span<const double>(columns.distance)}};
     if (!is_bound) {
         told.push_back({"x", std::span<const double>(columns.x)});

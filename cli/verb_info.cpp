@@ -43,7 +43,7 @@ struct Facts {
     bool on_lattice = true;              ///< else what needs the lattice is not known
     std::optional<double> solid_volume;  ///< of the space of positive winding number; not of open surfaces
 
-    bool is_open() const { return report.facets == 0 || report.count(mesh::ProblemKind::open_edges) > 0; }
+    bool is_open() const { return report.count(mesh::ProblemKind::open_edges) > 0; }
     /// Has every point a winding number?
     bool bounds_space() const { return !is_open() && report.oriented; }
     bool may_wind_twice() const {
@@ -89,9 +89,12 @@ Result<Facts> gather(Session& session, const Context& context, const io::ReadMes
         session.timed("validate", [&] { return validate(session, context, read.mesh, on_lattice); });
     if (!report) return std::move(report).error();
     // Seams and soups have one surface, however often a position is stored.
+    if (context.cancelled()) return Context::cancelled_error();
     const mesh::Mesh welded = session.timed("weld", [&] { return mesh::weld(read.mesh); });
     Facts facts{read, std::move(*report), {}, on_lattice, {}};
+    if (context.cancelled()) return Context::cancelled_error();
     facts.measures = session.timed("measure", [&] { return mesh::measure(welded); });
+    if (context.cancelled()) return Context::cancelled_error();
     warn_of_overflow(session, facts.measures);
     if (!on_lattice || !facts.bounds_space()) return facts;
     facts.solid_volume = facts.measures.volume;
@@ -128,7 +131,8 @@ Json result_of(const Facts& facts) {
                  {"centroid", json_of(m.centroid)},
                  {"inertia", inertia},
                  {"euler_number", m.euler_number},
-                 {"bounds", Json::array({json_of(m.bounds.low), json_of(m.bounds.high)})}};
+                 {"bounds", Json()}};
+    if (!m.bounds.empty()) json["bounds"] = Json::array({json_of(m.bounds.low), json_of(m.bounds.high)});
     if (m.genus) json["genus"] = *m.genus;
     if (!facts.read.unit.empty()) json["unit"] = facts.read.unit;
     return json;
@@ -139,30 +143,36 @@ std::string line(const std::string& name, const std::string& value) {
 }
 
 /// A matrix in columns, rounded at the digits of its largest entry.
-std::string matrix_text(const std::string& name, const std::array<std::array<double, 3>, 3>& matrix) {
+std::string matrix_text(const std::array<std::array<double, 3>, 3>& matrix) {
     double largest = 0;
     for (const auto& row : matrix)
         for (const double entry : row) largest = std::max(largest, std::fabs(entry));
     std::string text;
     for (std::size_t row = 0; row < 3; ++row)
-        text += line(row == 0 ? name : "",
-                     fmt::format("{:>14} {:>14} {:>14}", number_text(matrix[row][0], largest),
+        text +=
+            line("", fmt::format("{:>14} {:>14} {:>14}", number_text(matrix[row][0], largest),
                                  number_text(matrix[row][1], largest), number_text(matrix[row][2], largest)));
     return text;
 }
 
 std::string bounds_text(const Box3& bounds) {
+    if (bounds.empty()) return line("bounds", "none");
     double largest = 0;
     for (int axis = 0; axis < 3; ++axis)
         largest = std::max({largest, std::fabs(bounds.low[axis]), std::fabs(bounds.high[axis])});
     return line("bounds", vector_text(bounds.low, largest)) + line("", vector_text(bounds.high, largest));
 }
 
+/// Behind a number that the surface gives no meaning.
+std::string remark(const Facts& facts) {
+    if (facts.bounds_space()) return "";
+    return fmt::format(" (of an {} surface: means nothing)",
+                       facts.is_open() ? "open" : "inconsistently oriented");
+}
+
 std::string volume_text(const Facts& facts) {
     const double volume = facts.measures.volume;
-    if (!facts.bounds_space())
-        return line("volume", fmt::format("{} (of an {} surface: means nothing)", number_text(volume),
-                                          facts.is_open() ? "open" : "inconsistently oriented"));
+    if (!facts.bounds_space()) return line("volume", number_text(volume) + remark(facts));
     // The union rounds the points that it constructs.
     const bool agrees = facts.solid_volume && std::fabs(*facts.solid_volume - volume) <= 1e-9 * volume;
     if (!facts.may_wind_twice() || agrees) return line("volume", number_text(volume));
@@ -188,7 +198,7 @@ std::string contacts_text(const Facts& facts) {
 std::string text_of(const Facts& facts, const std::string& name) {
     const mesh::Measures& m = facts.measures;
     const auto yes_or_no = [](bool yes) { return yes ? "yes" : "no"; };
-    const double reach = std::max(length(m.bounds.low), length(m.bounds.high));
+    const double reach = m.bounds.empty() ? 0 : std::max(length(m.bounds.low), length(m.bounds.high));
     std::string text = fmt::format("{} ({})\n", name, facts.read.format);
     text += line("vertices", grouped(facts.report.vertices));
     text += line("triangles", grouped(facts.report.facets));
@@ -200,8 +210,9 @@ std::string text_of(const Facts& facts, const std::string& name) {
                  fmt::format("{}{}", m.euler_number, m.genus ? fmt::format(" (genus {})", *m.genus) : ""));
     text += volume_text(facts);
     text += line("area", number_text(m.area));
-    text += line("centroid", vector_text(m.centroid, reach));
-    text += matrix_text("inertia", m.inertia);
+    text += line("centroid", vector_text(m.centroid, reach) + remark(facts));
+    text += line("inertia", "about the centroid, at density 1" + remark(facts));
+    text += matrix_text(m.inertia);
     text += bounds_text(m.bounds);
     if (!facts.read.unit.empty()) text += line("unit", facts.read.unit);
     return text;
@@ -268,9 +279,7 @@ void add_info(Program& program) {
             "is stdin")
         ->required()
         ->type_name("FILE");
-    verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
-        ->check(check_model_format)
-        ->type_name("FORMAT");
+    add_from_option(verb, options->format, "FILE");
 }
 
 }  // namespace octavo::cli

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "definitions.hpp"
@@ -33,17 +35,30 @@ std::string roff_names(const OptionDefinition& option) {
     return names;
 }
 
-std::string roff_verb(const VerbDefinition& verb) {
+std::string roff_options(const std::vector<OptionDefinition>& options) {
+    std::string text;
+    for (const OptionDefinition& one : options)
+        text += fmt::format(".TP\n{}\n{}\n", roff_names(one), roff(one.description));
+    return text;
+}
+
+/// Without the options that every verb has, which are told once.
+std::string roff_verb(VerbDefinition verb) {
+    const auto is_for_all = [](const OptionDefinition& one) {
+        return one.common || std::count(one.names.begin(), one.names.end(), "--help") > 0;
+    };
+    verb.options.erase(std::remove_if(verb.options.begin(), verb.options.end(), is_for_all),
+                       verb.options.end());
     std::string text =
         fmt::format(".SS \"octavo {}\"\n{}.\n.PP\n.B octavo {}\n", verb.name, roff(verb.summary), verb.name);
     for (const OptionDefinition& one : verb.positionals)
         text += (one.required ? ".I " : "[\\fI") + roff(one.positional) + (one.required ? "\n" : "\\fR]\n");
+    for (const OptionDefinition& one : verb.options)
+        if (one.required) text += "\\fB" + roff(one.names.back()) + "\\fR \\fI" + roff(one.value) + "\\fR\n";
     text += "[\\fIoptions\\fR]\n";
     for (const OptionDefinition& one : verb.positionals)
         text += fmt::format(".TP\n.I {}\n{}\n", roff(one.positional), roff(one.description));
-    for (const OptionDefinition& one : verb.options)
-        text += fmt::format(".TP\n{}\n{}\n", roff_names(one), roff(one.description));
-    return text;
+    return text + roff_options(verb.options);
 }
 
 std::string man_page(const Program& program) {
@@ -59,6 +74,8 @@ std::string man_page(const Program& program) {
         "in exact integer arithmetic.\n.SH VERBS\n",
         OCTAVO_VERSION);
     for (const VerbDefinition& verb : definitions_of(program.app())) page += roff_verb(verb);
+    page += ".SH COMMON OPTIONS\nThey may also stand before the verb.\n" +
+            roff_options(common_definitions(program.app()));
     page += ".SH NOTES\n.nf\n" + roff(program.notes()) + "\n.fi\n";
     return page;
 }

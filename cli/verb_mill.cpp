@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/bsp_octree/mill.hpp>
 #include <octavo/io/poses.hpp>
 
@@ -45,10 +46,10 @@ void tell(Session& session, const bsp_octree::Milled& milled, const WrittenBspOc
         session.result["triangles"] = written.made->mesh.triangles.size();
         session.result["largest_rounding"] = written.made->report.largest_rounding;
         session.result["inverted_facets"] = written.made->report.inverted_facets;
-        what = grouped(written.made->mesh.triangles.size()) + " triangles";
+        what = counted(written.made->mesh.triangles.size(), "triangle", "triangles");
     }
-    session.text = fmt::format("{}: {}, volume {:.10g}, after {} steps, {:.2f} ms each (median)\n", output,
-                               what, measures.volume, grouped(report.steps), 1e3 * median);
+    session.text = fmt::format("{}: {}, volume {:.10g}, after {}, {:.2f} ms each (median)\n", output, what,
+                               measures.volume, counted(report.steps, "step", "steps"), 1e3 * median);
     if (milled.solid.is_empty()) session.warn("nothing is left of the workpiece");
     if (report.cutting_steps == 0) session.warn("the tool never meets the workpiece");
 }
@@ -91,8 +92,9 @@ void add_mill(Program& program) {
     verb->add_option("--tool", arguments->tool, "The tool, likewise, about its own origin")
         ->required()
         ->type_name("FILE");
-    verb->add_option("--path", arguments->path,
-                     "Poses of the tool, one a line: x,y,z, or 12 numbers (3 rows of 4, row-major)")
+    verb->add_option(
+            "--path", arguments->path,
+            "Poses of the tool, one a line: x,y,z, or 12 numbers (3 rows of 4, row-major); - is stdin")
         ->required()
         ->type_name("FILE");
     verb->add_option(
@@ -100,8 +102,7 @@ void add_mill(Program& program) {
             "What to write, a BSP-octree or a mesh: " + one_of(bsp_octree_outputs().names) + "; - is stdout")
         ->required()
         ->type_name("FILE");
-    verb->add_option("--to", arguments->format, "Format of the output, instead of by its extension")
-        ->type_name("FORMAT");
+    add_to_option(verb, arguments->format, bsp_octree_outputs());
 }
 
 }  // namespace octavo::cli

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/classic/csg_build.hpp>
 #include <octavo/classic/from_mesh.hpp>
 #include <octavo/octree/oct_format.hpp>
@@ -30,7 +31,7 @@ struct OctreeOptions {
 struct Grown {
     octree::Octree octree;
     std::uint64_t peak_nodes = 0, primitive_tests = 0;
-    double snap_displacement = 0;  ///< how far rounding to the lattice moved a vertex of a mesh at most
+    double largest_displacement = 0;  ///< how far rounding to the lattice moved a vertex of a mesh at most
 };
 
 /// The least depth whose cells are no larger than `precision`, in world units.
@@ -46,10 +47,17 @@ Result<int> depth_for(double precision, const exact::Lattice& lattice) {
 
 void warn_about(Session& session, const classic::BuildReport& report) {
     if (report.facets_without_area)
-        session.warn(fmt::format("{} facets without area were left out", report.facets_without_area));
-    if (report.closing_facets)
         session.warn(
-            fmt::format("the surface is open; {} facets were added to close it", report.closing_facets));
+            counted(report.facets_without_area, "facet without area was", "facets without area were") +
+            " left out");
+}
+
+/// The library names the limit, here it is an option.
+Error in_words_of_options(Error error, const OctreeOptions& options) {
+    const std::string limit = "(max-nodes)";
+    if (const std::size_t at = error.sentence.find(limit); at != std::string::npos)
+        error.sentence.replace(at, limit.size(), "(--max-nodes)");
+    return in_file(std::move(error), options.input);
 }
 
 Result<Grown> grow_from_mesh(Session& session, const Context& context, const OctreeOptions& options) {
@@ -61,6 +69,7 @@ Result<Grown> grow_from_mesh(Session& session, const Context& context, const Oct
     building.depth = options.depth;
     building.max_nodes = *parse_count(options.max_nodes);
     building.open = options.open == "winding" ? classic::OpenPolicy::winding : classic::OpenPolicy::reject;
+    if (building.open == classic::OpenPolicy::winding) warn_of_closing(session, snapped->mesh);
     if (options.precision > 0) {
         Result<int> depth = depth_for(options.precision, snapped->mesh.lattice);
         if (!depth) return std::move(depth).error();
@@ -68,7 +77,7 @@ Result<Grown> grow_from_mesh(Session& session, const Context& context, const Oct
     }
     Result<classic::Built> built =
         session.timed("build", [&] { return classic::build(snapped->mesh, building, context); });
-    if (!built) return in_file(std::move(built).error(), options.input);
+    if (!built) return in_words_of_options(std::move(built).error(), options);
     warn_about(session, built->report);
     return Grown{std::move(built->octree), built->report.peak_nodes, built->report.primitive_tests,
                  snapped->report.largest_displacement};
@@ -87,8 +96,22 @@ Result<Grown> grow_from_csg(Session& session, const Context& context, const Octr
         options.method == "classic" ? classic::CsgMethod::classic : classic::CsgMethod::top_down;
     Result<classic::CsgOctree> built =
         session.timed("build", [&] { return classic::build(file->expression, building, context); });
-    if (!built) return in_file(std::move(built).error(), options.input);
+    if (!built) return in_words_of_options(std::move(built).error(), options);
     return Grown{std::move(built->octree), built->stats.peak_nodes, built->stats.primitive_tests, 0};
+}
+
+/// Options that the model has no use for.
+Status check_use(Session& session, const OctreeOptions& options) {
+    const bool is_csg = kind_of(options.input, options.format) == ModelKind::csg;
+    const auto useless = [&](const char* option, const char* models) {
+        return session.usage_error(
+            fmt::format("{} is for {}, and {} is none", option, models, options.input));
+    };
+    if (!is_csg && options.method != "top-down") return useless("--method", "CSG trees (.csg)");
+    if (!is_csg && options.faceted) return useless("--faceted", "CSG trees (.csg)");
+    if (!is_csg && options.skip_unsupported) return useless("--skip-unsupported", "CSG trees (.csg)");
+    if (is_csg && options.open != "reject") return useless("--open", "meshes");
+    return Done{};
 }
 
 Result<ExitCode> make_octree(Session& session, const OctreeOptions& options) {
@@ -96,6 +119,7 @@ Result<ExitCode> make_octree(Session& session, const OctreeOptions& options) {
     const Result<std::string> format =
         settle_output(session, {options.input}, options.output, options.to, octree_outputs());
     if (!format) return format.error();
+    if (const Status useful = check_use(session, options); !useful) return useful.error();
     Result<Grown> built = kind_of(options.input, options.format) == ModelKind::csg
                               ? grow_from_csg(session, context, options)
                               : grow_from_mesh(session, context, options);
@@ -112,11 +136,9 @@ Result<ExitCode> make_octree(Session& session, const OctreeOptions& options) {
     session.result = json_of(built->octree, file);
     session.result["peak_nodes"] = built->peak_nodes;
     session.result["primitive_tests"] = built->primitive_tests;
-    session.result["snap_displacement"] = built->snap_displacement;
+    session.result["largest_displacement"] = built->largest_displacement;
     session.text = text_of(built->octree, file);
-    if (built->snap_displacement > 0)
-        session.text += fmt::format("rounding   moved vertices to the lattice by at most {}\n",
-                                    number_text(built->snap_displacement));
+    session.text += rounding_text(built->largest_displacement);
     return ExitCode::ok;
 }
 
@@ -136,7 +158,7 @@ void add_octree(Program& program) {
                         ->check(whole_number(0, octree::max_level))
                         ->type_name("N")
                         ->capture_default_str();
-    verb->add_option("--precision", options->precision, "Cells no larger than this, in the model's units")
+    verb->add_option("-p,--precision", options->precision, "Cells no larger than this, in the model's units")
         ->check(check_positive)
         ->type_name("LENGTH")
         ->excludes(depth);
@@ -155,9 +177,7 @@ void add_octree(Program& program) {
                    "For .csg: round things are the polyhedra that OpenSCAD makes");
     verb->add_flag("--skip-unsupported", options->skip_unsupported,
                    "For .csg: leave out text and the like, with warnings");
-    verb->add_option("--format", options->format, "Format of FILE, instead of by its extension")
-        ->check(check_model_format)
-        ->type_name("FORMAT");
+    add_from_option(verb, options->format, "FILE");
     take_one_of(verb->add_option("--to", options->to, "Format of the output, instead of by its extension"),
                 octree_outputs().names);
 }

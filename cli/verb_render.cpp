@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/render/cairo_drawing.hpp>
 #include <octavo/render/hidden_parts.hpp>
 #include <octavo/render/png.hpp>
@@ -135,8 +136,8 @@ Result<ExitCode> render_model(Session& session, const RenderOptions& options) {
                       {"width", size.width},
                       {"height", size.height},
                       {"method", *method}};
-    session.text = fmt::format("{}: {} × {} pixels, {} polygons", options.output, size.width, size.height,
-                               grouped(subject->scene.facets.size()));
+    session.text = fmt::format("{}: {} × {} pixels, {}", options.output, size.width, size.height,
+                               counted(subject->scene.facets.size(), "polygon", "polygons"));
     if (*method == "depth") {
         if (Status drawn = draw_by_depth(session, context, options, size, *subject, *camera); !drawn)
             return std::move(drawn).error();
@@ -146,8 +147,8 @@ Result<ExitCode> render_model(Session& session, const RenderOptions& options) {
         if (!drawn) return drawn.error();
         session.result["areas"] = drawn->regions;
         session.result["strokes"] = drawn->strokes;
-        session.text +=
-            fmt::format(", {} visible areas, {} strokes", grouped(drawn->regions), grouped(drawn->strokes));
+        session.text += ", " + counted(drawn->regions, "visible area", "visible areas") + ", " +
+                        counted(drawn->strokes, "stroke", "strokes");
     }
     session.text += "\n";
     return ExitCode::ok;
@@ -219,11 +220,8 @@ void add_render(Program& program) {
     verb->add_option("-o,--output", options->output, "The picture to write: png, svg or pdf; - is stdout")
         ->required()
         ->type_name("FILE");
-    verb->add_option("--format", options->subject.format, "Format of MODEL, instead of by its extension")
-        ->check(check_model_format)
-        ->type_name("FORMAT");
-    verb->add_option("--to", options->to, "Format of the picture, instead of by its extension")
-        ->type_name("FORMAT");
+    add_from_option(verb, options->subject.format, "MODEL");
+    add_to_option(verb, options->to, picture_outputs());
     add_view_options(verb, *options);
     add_style_options(verb, *options);
 }

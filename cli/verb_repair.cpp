@@ -81,11 +81,8 @@ void add_repair(Program& program) {
                      "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")
         ->required()
         ->type_name("FILE");
-    verb->add_option("--from", options->from, "Format of IN, instead of by its extension")
-        ->check(check_model_format)
-        ->type_name("FORMAT");
-    verb->add_option("--to", options->to, "Format of the output, instead of by its extension")
-        ->type_name("FORMAT");
+    add_from_option(verb, options->from, "IN");
+    add_to_option(verb, options->to, mesh_outputs());
 }
 
 }  // namespace octavo::cli

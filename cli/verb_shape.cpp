@@ -72,9 +72,9 @@ const std::map<std::string, Shape>& shapes() {
     return all;
 }
 
-std::string names() {
+std::string names(const char* separator) {
     std::string list;
-    for (const auto& [name, shape] : shapes()) list += (list.empty() ? "" : ", ") + name;
+    for (const auto& [name, shape] : shapes()) list += (list.empty() ? "" : separator) + name;
     return list;
 }
 
@@ -83,7 +83,7 @@ std::string check_name(const std::string& name) {
     std::vector<std::string> known;
     for (const auto& [one, shape] : shapes()) known.push_back(one);
     const std::string meant = nearest_word(name, known);
-    return fmt::format("must be one of {}, not {}{}", names(), name,
+    return fmt::format("must be one of {}, not {}{}", names(", "), name,
                        meant.empty() ? "" : "; did you mean " + meant + "?");
 }
 
@@ -119,10 +119,10 @@ void add_shape(Program& program) {
     const auto options = std::make_shared<ShapeOptions>();
     Verb* verb = program.verb("shape", "Make", "Generate a solid to try things on",
                               [options](Session& session) { return make_shape(session, *options); });
-    verb->add_option("NAME", options->name, "One of " + names())
+    verb->add_option("NAME", options->name, "One of " + names(", "))
         ->required()
         ->check(check_name)
-        ->type_name("NAME");
+        ->type_name(names("|"));
     verb->add_option("-o,--output", options->output,
                      "The mesh to write: " + one_of(mesh_outputs().names) + "; - is stdout")
         ->required()
@@ -135,8 +135,7 @@ void add_shape(Program& program) {
         ->check(check_positive)
         ->type_name("FACTOR")
         ->capture_default_str();
-    verb->add_option("--to", options->to, "Format of the output, instead of by its extension")
-        ->type_name("FORMAT");
+    add_to_option(verb, options->to, mesh_outputs());
 }
 
 }  // namespace octavo::cli

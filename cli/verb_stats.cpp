@@ -60,8 +60,7 @@ void add_stats(Program& program) {
                      "An octree (.oct), a BP-octree (.bpo) or a BSP-octree (.bso); - is stdin")
         ->required()
         ->type_name("FILE");
-    take_one_of(verb->add_option("--format", options->format, "Format of FILE, instead of by its extension"),
-                {"oct", "bpo", "bso"});
+    add_from_option(verb, options->format, "FILE", {"oct", "bpo", "bso"});
 }
 
 }  // namespace octavo::cli

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/io/tetgen.hpp>
 #include <octavo/mesh/merge_coplanar.hpp>
 #include <octavo/mesh/shells.hpp>
@@ -50,15 +51,19 @@ std::vector<Vec3> points_in_cavities(const mesh::LatticeMesh& lattice_mesh, cons
     const auto normal = [&](const Triangle& t) {
         return cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
     };
+    const std::size_t none = mesh.triangles.size();
+    std::vector<std::size_t> largest_of(shells.shells.size(), none);
+    std::vector<double> area_of(shells.shells.size(), -1);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const std::uint32_t shell = shells.of_face[i];
+        if (shell == mesh::no_index) continue;
+        const double area = length(normal(mesh.triangles[i]));
+        if (area > area_of[shell]) area_of[shell] = area, largest_of[shell] = i;
+    }
     std::vector<Vec3> points;
     for (std::uint32_t shell = 0; shell < shells.shells.size(); ++shell) {
-        if (!shells.shells[shell].cavity()) continue;
-        std::size_t largest = mesh.triangles.size();
-        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-            if (shells.of_face[i] == shell &&
-                (largest == mesh.triangles.size() ||
-                 length(normal(mesh.triangles[i])) > length(normal(mesh.triangles[largest]))))
-                largest = i;
+        const std::size_t largest = largest_of[shell];
+        if (!shells.shells[shell].cavity() || largest == none) continue;
         const Triangle& t = mesh.triangles[largest];
         const Vec3 middle = (1.0 / 3) * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
         const Vec3 direction = normal(t);
@@ -100,7 +105,7 @@ class BoundaryWriter {
   public:
     BoundaryWriter(Output& output, const Mesh& mesh) : output_(output), boundary_(boundary_of(mesh)) {}
 
-    void write(bool with_contours) {
+    WriteReport write(bool with_contours) {
         output_.append("# written by Octavo\n");
         write_points();
         if (with_contours)
@@ -109,6 +114,15 @@ class BoundaryWriter {
             write_smesh_facets();
         write_point_list(boundary_.hole_points);
         output_.append("0\n");  // regions
+        WriteReport report;
+        if (points_ < boundary_.faces.vertices.size())
+            report.warnings.push_back("not kept: " +
+                                      counted(boundary_.faces.vertices.size() - points_,
+                                              "vertex that is a corner of no face",
+                                              "vertices that are corners of no face") +
+                                      "; the file has " + counted(points_, "vertex", "vertices") + " and " +
+                                      counted(faces_, "face", "faces"));
+        return report;
     }
 
   private:
@@ -138,6 +152,7 @@ class BoundaryWriter {
         std::uint32_t count = 0;
         for (std::uint32_t& number : number_of_)
             if (number) number = ++count;
+        points_ = count;
         number(count);
         output_.append(" 3 0 0\n");
         for (std::size_t i = 0; i < number_of_.size(); ++i)
@@ -150,7 +165,8 @@ class BoundaryWriter {
     }
 
     void write_poly_facets() {
-        number(faces());
+        faces_ = faces();
+        number(faces_);
         output_.append(" 0\n");
         const std::vector<std::uint32_t>& begin = boundary_.faces.face_begin;
         for (std::uint32_t face = 0; face < faces(); ++face) {
@@ -188,7 +204,8 @@ class BoundaryWriter {
                  triangulator_(boundary_.faces.vertices, corners, contour_begin).triangles)
                 add(t);
         }
-        number(list_begin.size() - 1);
+        faces_ = list_begin.size() - 1;
+        number(faces_);
         output_.append(" 0\n");
         for (std::size_t i = 0; i + 1 < list_begin.size(); ++i)
             write_corners({lists.data() + list_begin[i], list_begin[i + 1] - list_begin[i]});
@@ -198,18 +215,17 @@ class BoundaryWriter {
     Boundary boundary_;
     std::vector<std::uint32_t> number_of_;  ///< of each vertex; 0 for those that are corners of nothing
     mesh::Triangulator triangulator_;
+    std::size_t points_ = 0, faces_ = 0;  ///< that were written
 };
 
 }  // namespace
 
 Result<WriteReport> write_poly(Output& output, const Mesh& mesh, const WriteOptions&) {
-    BoundaryWriter(output, mesh).write(true);
-    return WriteReport{};
+    return BoundaryWriter(output, mesh).write(true);
 }
 
 Result<WriteReport> write_smesh(Output& output, const Mesh& mesh, const WriteOptions&) {
-    BoundaryWriter(output, mesh).write(false);
-    return WriteReport{};
+    return BoundaryWriter(output, mesh).write(false);
 }
 
 }  // namespace octavo::io

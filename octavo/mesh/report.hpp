@@ -67,8 +67,8 @@ struct Report {
     std::uint32_t shells = 0;             ///< joined by shared edges, after merging
     std::uint32_t cavities = 0;           ///< closed shells that look inwards, rightly
     std::uint32_t nested_bodies =
-        0;                         ///< closed shells inside others, both outwards: legal, but they wind twice
-    double snap_displacement = 0;  ///< how far the lattice moves a vertex at most, in units of the file
+        0;  ///< closed shells inside others, both outwards: legal, but they wind twice
+    double largest_displacement = 0;  ///< how far the lattice moves a vertex at most, in units of the file
 
     /// The number of problems of the kind; 0 when there is none.
     std::uint64_t count(ProblemKind kind) const {

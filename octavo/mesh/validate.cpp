@@ -145,8 +145,8 @@ Status Validation::prepare() {
         if (!used[vertex]) continue;
         const Vec3 position = mesh_.vertices[kept_[vertex]];
         points_[vertex] = lattice->snap(position);
-        report_.snap_displacement =
-            std::max(report_.snap_displacement, length(lattice->to_world(points_[vertex]) - position));
+        report_.largest_displacement =
+            std::max(report_.largest_displacement, length(lattice->to_world(points_[vertex]) - position));
     }
     return Done{};
 }

@@ -201,7 +201,7 @@ TEST_F(Models, OctreesOfEveryKindAreKnownOnStdin) {
             const json named = octavo(before + file + after + " --json").json()["result"];
             // Through a pipe, and from a file, of which the place could be set back.
             for (const std::string& stdin_of : {"cat " + file + " | ", std::string()})
-                for (const std::string& given : {std::string(), " --format " + format}) {
+                for (const std::string& given : {std::string(), " --from " + format}) {
                     if (!given.empty() && !after.empty()) continue;
                     const Ran piped = shell(stdin_of + "$octavo " + before + "-" + after + " --json" + given +
                                             (stdin_of.empty() ? " < " + file : ""));
@@ -217,10 +217,10 @@ TEST_F(Models, OctreesOfEveryKindAreKnownOnStdin) {
     EXPECT_EQ(shell("cat cube.stl | $octavo info - --json").json()["result"]["triangles"], 12);
     EXPECT_EQ(shell("cat cube.stl | $octavo stats -").exit_code, 3);
     EXPECT_EQ(shell("$octavo stats - </dev/null").exit_code, 3);
-    EXPECT_EQ(octavo("stats cube.oct --format xyz").exit_code, 2);
-    // What a file is called decides unless --format does.
+    EXPECT_EQ(octavo("stats cube.oct --from xyz").exit_code, 2);
+    // What a file is called decides unless --from does.
     ASSERT_EQ(shell("cp cube.bpo renamed.data").exit_code, 0);
-    EXPECT_EQ(octavo("stats renamed.data --format bpo").exit_code, 0);
+    EXPECT_EQ(octavo("stats renamed.data --from bpo").exit_code, 0);
 }
 
 TEST_F(Models, WhereAModelMeansNothingTheVerbToUseIsNamed) {

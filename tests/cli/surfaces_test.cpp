@@ -62,5 +62,76 @@ TEST_F(Surfaces, RepairSaysWhatHelpsWhereItDoesNot) {
     EXPECT_EQ(octavo("repair c.off -o d.off --json").json()["warnings"], json::array());
 }
 
+TEST_F(Surfaces, RepairIsAdvisedOnlyWhereItHelps) {
+    write("inward.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n3 1 3 2\n3 2 3 0\n");
+    write("points.csv", "0.1,0.1,0.1\n");
+    for (const char* arguments :
+         {"octree inward.off", "contains inward.off points.csv", "distance inward.off points.csv"})
+        EXPECT_NE(
+            octavo(arguments).err.find("point inwards, so hardly anything counts as inside; octavo repair"),
+            std::string::npos)
+            << arguments;
+    ASSERT_EQ(octavo("repair inward.off -o outward.off").exit_code, 0);
+    EXPECT_EQ(octavo("contains outward.off points.csv").out, "side\n-1\n");
+    // Three loose triangles that look to the origin: their "volume" is negative, and repair leaves them.
+    write("loose.off",
+          "OFF\n9 3 0\n1 0 0\n1 1 0\n1 0 1\n0 1 0\n0 1 1\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n3 0 2 1\n3 3 5 4\n3 6 "
+          "8 7\n");
+    for (const char* arguments : {"octree loose.off", "contains loose.off points.csv"})
+        EXPECT_EQ(octavo(arguments).err.find("repair"), std::string::npos) << octavo(arguments).err;
+}
+
+TEST_F(Surfaces, FacetsThatCloseASurfaceAreToldByEveryVerbThatAddsThem) {
+    write("open.off", open_cube);
+    write("points.csv", "0.5,0.5,0.5\n5,5,5\n");
+    for (const char* arguments :
+         {"octree open.off --open winding", "contains open.off points.csv --open winding",
+          "distance open.off points.csv --open winding"}) {
+        const json warnings = octavo(std::string(arguments) + " --json").json()["warnings"];
+        EXPECT_EQ(warnings, json::array({"the surface is open; 4 facets were added to close it"}))
+            << arguments;
+    }
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    EXPECT_EQ(octavo("contains cube.off points.csv --open winding --json").json()["warnings"], json::array());
+    // Inside out: what is closed holds nothing, which the open surface could not say.
+    write("inward.off",
+          "OFF\n8 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+          "4 0 1 2 3\n4 0 4 5 1\n4 1 5 6 2\n4 2 6 7 3\n4 3 7 4 0\n");
+    EXPECT_NE(octavo("contains inward.off points.csv --open winding").err.find("point inwards"),
+              std::string::npos);
+}
+
+TEST_F(Surfaces, InfoSaysWhatInertiaIsAboutAndWhatMeansNothing) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    const std::string solid = octavo("info cube.off").out;
+    EXPECT_NE(solid.find("about the centroid, at density 1\n"), std::string::npos) << solid;
+    EXPECT_EQ(solid.find("means nothing"), std::string::npos) << solid;
+    write("turned.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 2 3\n");
+    std::istringstream lines(octavo("info turned.off").out);
+    int told = 0;
+    for (std::string line; std::getline(lines, line);)
+        for (const char* name : {"  volume ", "  centroid ", "  inertia "})
+            if (line.rfind(name, 0) == 0) {
+                ++told;
+                EXPECT_NE(line.find("(of an inconsistently oriented surface: means nothing)"),
+                          std::string::npos)
+                    << line;
+            }
+    EXPECT_EQ(told, 3);
+}
+
+TEST_F(Surfaces, OneOfAThingIsNotSeveral) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
+    ASSERT_EQ(octavo("octree cube.off --depth 2 -o cube.oct").exit_code, 0);
+    write("points.csv", "nan,0,0\n");
+    EXPECT_NE(octavo("contains cube.off points.csv").err.find("1 point has a coordinate"), std::string::npos);
+    write("wall.csv", "1,0,0\n");
+    EXPECT_NE(octavo("contains cube.oct wall.csv").err.find("1 point lies in gray cells"), std::string::npos)
+        << octavo("contains cube.oct wall.csv").err;
+    EXPECT_NE(octavo("contains cube.off wall.csv -o a.csv").out.find("1 point: 0 inside"), std::string::npos);
+    EXPECT_NE(octavo("mill cube.off --tool cube.off --path wall.csv -o a.stl").out.find("after 1 step,"),
+              std::string::npos);
+}
+
 }  // namespace
 }  // namespace octavo::tests

@@ -212,8 +212,8 @@ TEST(Validate, TellsThinFacetsThatTheLatticeFlattens) {
     EXPECT_EQ(report.count(ProblemKind::snapped_facets), 1u);
     EXPECT_EQ(report.count(ProblemKind::zero_area_facets), 0u);
     EXPECT_TRUE(report.closed);
-    EXPECT_GT(report.snap_displacement, 0);
-    EXPECT_LT(report.snap_displacement, 1e-7);
+    EXPECT_GT(report.largest_displacement, 0);
+    EXPECT_LT(report.largest_displacement, 1e-7);
 }
 
 TEST(Validate, NamesTheFacetsThatCross) {
