@@ -24,9 +24,9 @@ Plane plane_of(const Soup& soup, std::uint32_t facet) {
     return Plane::through(soup.points[corner[0]], soup.points[corner[1]], soup.points[corner[2]]);
 }
 
-/// The facets that are subdivided together, with their cuts.
+/// The faces that are subdivided together, with their cuts.
 struct Sheet {
-    std::vector<std::uint32_t> facets;  ///< ascending
+    std::vector<std::uint32_t> faces;  ///< ascending
     std::vector<Cut> cuts;
 };
 
@@ -44,7 +44,7 @@ std::vector<Sheet> find_sheets(const Soup& soup, const Contacts& contacts) {
         sheet_of[facet] = 0;
         touched.push_back(facet);
     };
-    for (const Cut& cut : contacts.cuts) touch(cut.facet);
+    for (const Cut& cut : contacts.cuts) touch(cut.face);
     for (const Overlap& overlap : contacts.overlaps) touch(overlap.first), touch(overlap.second);
     std::sort(touched.begin(), touched.end());
 
@@ -58,9 +58,9 @@ std::vector<Sheet> find_sheets(const Soup& soup, const Contacts& contacts) {
         } else {
             sheet_of[facet] = sheet_of[first];
         }
-        sheets[sheet_of[facet]].facets.push_back(facet);
+        sheets[sheet_of[facet]].faces.push_back(facet);
     }
-    for (const Cut& cut : contacts.cuts) sheets[sheet_of[cut.facet]].cuts.push_back(cut);
+    for (const Cut& cut : contacts.cuts) sheets[sheet_of[cut.face]].cuts.push_back(cut);
     return sheets;
 }
 
@@ -78,7 +78,7 @@ struct Pieces {
 };
 
 inline constexpr std::uint32_t is_cut_line =
-    no_index;  ///< the tag of segments that are no border of a sheet's facet
+    no_index;  ///< the tag of segments that are no border of a sheet's face
 
 /// All points that are known go in before any segment, so that a crossing of segments is never one of them.
 void insert_points(const Sheet& sheet, const CutPlanes& planes, Subdivision& subdivision,
@@ -97,19 +97,19 @@ void insert_segments(const Sheet& sheet, const CutPlanes& planes, Subdivision& s
                                     planes.of_facet[cut.other], is_cut_line);
 }
 
-Pieces subdivide_facet(const Soup& soup, const Sheet& sheet, const CutPlanes& planes,
-                       Subdivision& subdivision) {
-    const std::uint32_t facet = sheet.facets[0];
-    const mesh::Triangle& corner = soup.facets[facet];
-    const PointId ids[3] = {corner[0], corner[1], corner[2]};
-    const Point corners[3] = {soup.points[ids[0]], soup.points[ids[1]], soup.points[ids[2]]};
-    subdivision.begin(plane_of(soup, facet), corners, ids);
+Pieces subdivide_face(const Soup& soup, const Faces& faces, const Sheet& sheet, const CutPlanes& planes,
+                      Subdivision& subdivision) {
+    const std::uint32_t face = sheet.faces[0];
+    const Faces::Corners corners = faces.corners(soup, face);
+    Point places[4];
+    for (std::uint32_t k = 0; k < corners.count; ++k) places[k] = soup.points[corners.vertex[k]];
+    subdivision.begin(plane_of(soup, face), {places, corners.count}, {corners.vertex.data(), corners.count});
     std::vector<Subdivision::PointOnLine> points;
     insert_points(sheet, planes, subdivision, points);
     insert_segments(sheet, planes, subdivision);
 
     Pieces pieces;
-    pieces.covers.push_back({facet, {}, false});
+    pieces.covers.push_back({face, {}, false});
     for (const Subdivision::Triangle& t : subdivision.triangles()) {
         pieces.triangles.push_back(
             {subdivision.point_of(t.v[0]), subdivision.point_of(t.v[1]), subdivision.point_of(t.v[2])});
@@ -168,7 +168,7 @@ class CoverSearch {
     const Subdivision& subdivision_;
 };
 
-/// The borders of a sheet's facets as lines, each once however many facets have a side on it.
+/// The borders of a sheet's faces as lines, each once however many faces have a side on it.
 class BorderLines {
   public:
     BorderLines(const Soup& soup, int axis, Subdivision& subdivision)
@@ -192,22 +192,28 @@ class BorderLines {
     std::map<std::array<std::int64_t, 3>, Subdivision::LineId> ids_;
 };
 
-Pieces subdivide_sheet(const Soup& soup, const Sheet& sheet, const CutPlanes& planes,
+Pieces subdivide_sheet(const Soup& soup, const Faces& faces, const Sheet& sheet, const CutPlanes& planes,
                        Subdivision& subdivision) {
-    const Plane plane = plane_of(soup, sheet.facets[0]);
-    subdivision.begin_round(plane, soup, sheet.facets);
+    const Plane plane = plane_of(soup, sheet.faces[0]);
+    std::vector<Point> all_corners;
+    for (const std::uint32_t face : sheet.faces) {
+        const Faces::Corners corners = faces.corners(soup, face);
+        for (std::uint32_t k = 0; k < corners.count; ++k)
+            all_corners.push_back(soup.points[corners.vertex[k]]);
+    }
+    subdivision.begin_round(plane, all_corners);
     BorderLines borders(soup, plane.dominant_axis(), subdivision);
     struct Border {
-        std::uint32_t from, to, facet;
+        std::uint32_t from, to, face;
         Subdivision::LineId line;
     };
     std::vector<Border> sides;
     std::vector<Subdivision::PointOnLine> points;
-    for (const std::uint32_t facet : sheet.facets) {
-        const mesh::Triangle& corner = soup.facets[facet];
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t from = corner[k], to = corner[(k + 1) % 3];
-            sides.push_back({from, to, facet, borders.of(from, to)});
+    for (const std::uint32_t face : sheet.faces) {
+        const Faces::Corners corners = faces.corners(soup, face);
+        for (std::uint32_t k = 0; k < corners.count; ++k) {
+            const std::uint32_t from = corners.vertex[k], to = corners.vertex[(k + 1) % corners.count];
+            sides.push_back({from, to, face, borders.of(from, to)});
             points.push_back({from, sides.back().line});
             points.push_back({to, sides.back().line});
         }
@@ -215,7 +221,7 @@ Pieces subdivide_sheet(const Soup& soup, const Sheet& sheet, const CutPlanes& pl
     insert_points(sheet, planes, subdivision, points);
     for (const Border& side : sides)
         subdivision.add_segment(subdivision.vertex_of(side.from), subdivision.vertex_of(side.to), side.line,
-                                side.facet);
+                                side.face);
     insert_segments(sheet, planes, subdivision);
 
     Pieces pieces;
@@ -267,11 +273,19 @@ Complex arrange(const Soup& soup, const Contacts& contacts, PointTable& points, 
     parallel_chunks(context, sheets.size(), 64, [&](std::size_t begin, std::size_t end) {
         Subdivision subdivision(points, planes.planes);
         for (std::size_t i = begin; i < end; ++i)
-            pieces[i] = sheets[i].facets.size() == 1 ? subdivide_facet(soup, sheets[i], planes, subdivision)
-                                                     : subdivide_sheet(soup, sheets[i], planes, subdivision);
+            pieces[i] = sheets[i].faces.size() == 1
+                            ? subdivide_face(soup, contacts.faces, sheets[i], planes, subdivision)
+                            : subdivide_sheet(soup, contacts.faces, sheets[i], planes, subdivision);
     });
     for (std::size_t i = 0; i < sheets.size(); ++i) {
-        for (const std::uint32_t facet : sheets[i].facets) complex.is_cut[facet] = 1;
+        for (const std::uint32_t face : sheets[i].faces) {
+            complex.is_cut[face] = 1;
+            const std::uint32_t partner = contacts.faces.partner(face);
+            if (partner == no_index) continue;
+            complex.is_cut[partner] = 1;
+            complex.joined.push_back({face, face});
+            complex.joined.push_back({partner, face});
+        }
         append(soup, pieces[i], points, complex);
     }
     return complex;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <octavo/base/context.hpp>
@@ -13,12 +14,12 @@
 
 // The soup cut along all its contacts: a conforming complex of triangles, no two of which cross or overlap.
 //
-// Facets that nothing cuts stay as they are. Each other facet, and each set of coplanar facets that overlap (a
-// *sheet*), is subdivided in its plane by all that meets it. Facets that overlap become one triangle that carries
+// Facets that nothing cuts stay as they are. Each other face, and each set of coplanar faces that overlap (a
+// *sheet*), is subdivided in its plane by all that meets it. Faces that overlap become one triangle that carries
 // the sum of their winding changes, like facets that coincide from the start.
 //
 // Invariants: two triangles share nothing, a corner, or an edge with both its ends; equal points have equal ids; a
-// triangle turns as its facet (`facet`, the first of those that cover it) does.
+// triangle turns as its facet (`facet`, the first face of those that cover it) does.
 // Cost: linear in contacts and cut facets; sheets are independent and run in parallel.
 
 namespace octavo::boolean {
@@ -28,9 +29,11 @@ struct Complex {
     const Soup* soup = nullptr;
     std::vector<char> is_cut;  ///< per facet of the soup: pieces stand for it
     std::vector<mesh::Triangle> pieces;
-    std::vector<std::uint32_t> piece_facet;
+    std::vector<std::uint32_t> piece_facet;  ///< the name of its face
     std::vector<TransitionId> piece_transition;
     TransitionTable transitions;  ///< the soup's and those of overlapping facets
+    /// Facets of cut faces of two, and the face, after which their pieces are named.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;
     std::size_t sheets = 0;
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(soup->facets.size() + pieces.size()); }

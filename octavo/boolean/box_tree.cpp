@@ -66,24 +66,26 @@ void sort_by_key(UninitialisedVector<Keyed>& keyed, const Context& context) {
     }
 }
 
-/// Sorts runs of equal keys by the bits that the keys have dropped; runs are short but for clustered scenes.
-void sort_runs(const Soup& soup, UninitialisedVector<Keyed>& keyed) {
+/// Sorts the runs of equal keys that begin in a chunk by the bits that the keys have dropped; runs are short but for
+/// clustered scenes.
+void sort_runs(const Soup& soup, UninitialisedVector<Keyed>& keyed, std::size_t begin, std::size_t end) {
     struct Fine {
         std::uint64_t key;
         std::uint32_t facet;
     };
     std::vector<Fine> run;
-    for (std::size_t i = 0, end; i < keyed.size(); i = end) {
-        for (end = i + 1; end < keyed.size() && keyed[end].key == keyed[i].key;) ++end;
-        if (end - i <= BoxTree::width) continue;
+    while (begin > 0 && begin < end && keyed[begin].key == keyed[begin - 1].key) ++begin;
+    for (std::size_t i = begin, after; i < end; i = after) {
+        for (after = i + 1; after < keyed.size() && keyed[after].key == keyed[i].key;) ++after;
+        if (after - i <= BoxTree::width) continue;
         run.clear();
-        for (std::size_t k = i; k < end; ++k) {
+        for (std::size_t k = i; k < after; ++k) {
             const auto [x, y, z] = doubled_centre(soup, keyed[k].facet);
             constexpr std::uint32_t mask = (1u << drop_bits) - 1;
             run.push_back({octree::interleave(x & mask, y & mask, z & mask), keyed[k].facet});
         }
         std::stable_sort(run.begin(), run.end(), [](const Fine& a, const Fine& b) { return a.key < b.key; });
-        for (std::size_t k = i; k < end; ++k) keyed[k].facet = run[k - i].facet;
+        for (std::size_t k = i; k < after; ++k) keyed[k].facet = run[k - i].facet;
     }
 }
 
@@ -111,8 +113,11 @@ BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32
         }
     });
     sort_by_key(keyed, context);
-    sort_runs(soup, keyed);
-    for (std::size_t i = 0; i < keyed.size(); ++i) facets_[i] = keyed[i].facet;
+    parallel_chunks(context, keyed.size(), grain,
+                    [&](std::size_t begin, std::size_t end) { sort_runs(soup, keyed, begin, end); });
+    parallel_chunks(context, keyed.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) facets_[i] = keyed[i].facet;
+    });
     keyed = {};
     fill_blocks(soup, margin, context);
     build_levels(context);

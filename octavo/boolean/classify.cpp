@@ -4,46 +4,48 @@
 #include <octavo/boolean/classify.hpp>
 #include <octavo/exact/orient_in_plane.hpp>
 #include <octavo/exact/plane.hpp>
+#include <octavo/exact/side.hpp>
 #include <octavo/mesh/disjoint_sets.hpp>
 
 namespace octavo::boolean {
 namespace {
 
-using exact::int128;
 using exact::Plane;
 using exact::Point;
 using exact::Sign;
-using exact::wide;
 
-/// v + ε (a - v) + ε² (b - v) for an infinitely small ε: a point inside the facet (v, a, b), next to v.
-struct NearCorner {
-    Point v, a, b;
+/// v + ε (a - v) + ε² (b - v) for an infinitely small ε: a point inside the triangle (v, a, b), next to v. Where a linear
+/// function is zero at v, its sign at the point is that at a, or where that is zero too, that at b.
+class NearCorner {
+  public:
+    NearCorner(const PointTable& points, const mesh::Triangle& corners)
+        : points_(points), corners_(corners) {}
+
+    /// Which way p, q and the point turn, seen from the far end of `axis`.
+    Sign turn(int axis, Point p, Point q) const {
+        return first_sign([&](const auto& corner) { return exact::orient2d(axis, p, q, corner); });
+    }
+    Sign side_of(const Plane& plane) const {
+        return first_sign([&](const auto& corner) { return exact::side_of(plane, corner); });
+    }
+    /// Corners of a box of lattice points that holds v.
+    std::pair<Point, Point> bounds() const {
+        if (const Point* const at = points_.lattice_point(corners_[0])) return {*at, *at};
+        const Point low = points_.cell(corners_[0]);
+        return {low, {low.x + 1, low.y + 1, low.z + 1}};
+    }
+
+  private:
+    template <class Function>
+    Sign first_sign(const Function& sign_at) const {
+        Sign sign = Sign::zero;
+        for (std::size_t k = 0; k < 3 && sign == Sign::zero; ++k) sign = points_.with(corners_[k], sign_at);
+        return sign;
+    }
+
+    const PointTable& points_;
+    const mesh::Triangle& corners_;
 };
-
-/// The first of the three that is not zero: value at v, change towards a, change towards b.
-Sign first_sign(int128 at_v, int128 towards_a, int128 towards_b) {
-    return at_v != 0        ? exact::sign_of(at_v)
-           : towards_a != 0 ? exact::sign_of(towards_a)
-                            : exact::sign_of(towards_b);
-}
-
-/// Which way p, q and the point turn, seen from the far end of `axis`.
-Sign turn(int axis, Point p, Point q, const NearCorner& near) {
-    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-    const std::int64_t ux = q[i] - p[i], uy = q[j] - p[j];
-    const auto cross = [&](std::int64_t x, std::int64_t y) { return int128{ux * y - uy * x}; };
-    return first_sign(cross(near.v[i] - p[i], near.v[j] - p[j]),
-                      cross(near.a[i] - near.v[i], near.a[j] - near.v[j]),
-                      cross(near.b[i] - near.v[i], near.b[j] - near.v[j]));
-}
-
-Sign side(const Plane& plane, const NearCorner& near) {
-    const auto towards = [&](Point p) {
-        return wide(plane.a()) * (p.x - near.v.x) + wide(plane.b()) * (p.y - near.v.y) +
-               wide(plane.c()) * (p.z - near.v.z);
-    };
-    return first_sign(plane.value_at(near.v), towards(near.a), towards(near.b));
-}
 
 class Classifier {
   public:
@@ -107,43 +109,8 @@ class Classifier {
         std::vector<std::uint32_t> next(side_begin_.begin(), side_begin_.end() - 1);
         for (PatchSide s = 0; s < region_.size(); ++s) sides_[next[region_[s]]++] = s;
 
-        transition_.resize(patches_.count);
-        seed_.assign(patches_.count, no_index);
-        for (std::uint32_t patch = 0; patch < patches_.count; ++patch) {
-            const std::uint32_t first = patches_.first[patch];
-            transition_[patch] = complex_.transition(first);
-            if (!complex_.is_piece(first)) seed_[patch] = first;
-        }
-        // Whole facets are numbered before pieces, so a patch that has one starts from it.
-        for (std::uint32_t piece = complex_.facets(); piece < complex_.size(); ++piece) {
-            std::uint32_t& seed = seed_[patches_.of_triangle[piece]];
-            if (seed == no_index && lies_at_corner(piece)) seed = piece;
-        }
+        for (const std::uint32_t first : patches_.first) transition_.push_back(complex_.transition(first));
     }
-
-    /// Whether one corner of the piece is a corner v of its facet and the next lies on the facet's edge from v.
-    bool lies_at_corner(std::uint32_t triangle) { return corner_of_piece(triangle) >= 0; }
-
-    int corner_of_piece(std::uint32_t triangle) const {
-        const mesh::Triangle& piece = complex_.corners(triangle);
-        const mesh::Triangle& facet = complex_.soup->facets[complex_.facet(triangle)];
-        for (int k = 0; k < 3; ++k)
-            for (int corner = 0; corner < 3; ++corner)
-                if (piece[k] == facet[corner] &&
-                    is_on_edge(piece[(k + 1) % 3], facet[corner], facet[(corner + 1) % 3]))
-                    return corner;
-        return -1;
-    }
-
-    bool is_on_edge(PointId point, std::uint32_t from, std::uint32_t to) const {
-        if (point == to) return true;
-        return points_.with(point, [&](const auto& p) { return on_line(p, from, to); });
-    }
-    bool on_line(Point p, std::uint32_t from, std::uint32_t to) const {
-        return exact::collinear(points_.vertex(from), points_.vertex(to), p);
-    }
-    template <class P>
-    bool on_line(const P& p, std::uint32_t from, std::uint32_t to) const;
 
     Status visit_component(std::uint32_t start);
     Status walk(std::uint32_t start);
@@ -168,7 +135,6 @@ class Classifier {
     std::vector<std::uint32_t> side_begin_;
     std::vector<PatchSide> sides_;
     std::vector<TransitionId> transition_;  ///< of each patch
-    std::vector<std::uint32_t> seed_;       ///< of each patch: a triangle from which a ray may start
     std::vector<std::uint64_t> fingerprint_of_;
     std::vector<char> inside_;
     std::vector<char> dangling_;  ///< per patch
@@ -180,15 +146,6 @@ class Classifier {
     std::vector<std::int32_t> winding_;
     std::uint64_t fingerprint_ = 0;
 };
-
-template <class P>
-bool Classifier::on_line(const P& p, std::uint32_t from, std::uint32_t to) const {
-    // In the plane of the facet already, so one projection that does not squeeze the edge decides; all three do.
-    const Point a = points_.vertex(from), b = points_.vertex(to);
-    for (int axis = 0; axis < 3; ++axis)
-        if (exact::orient2d(axis, a, b, p) != Sign::zero) return false;
-    return true;
-}
 
 /// The multiplier of an operand's winding number in the fingerprint.
 std::uint64_t weight_of(std::uint32_t operand) {
@@ -223,7 +180,7 @@ bool Classifier::holds_between(std::span<const Delta> deltas, int sign) {
     return holds;
 }
 
-/// A triangle of the component of `start` from which a ray may start.
+/// The first triangle of the component of `start`: a whole facet if it has any.
 std::uint32_t Classifier::find_seed(std::uint32_t start) {
     if (gathered_.empty()) gathered_.assign(regions_, 0);
     stack_.assign(1, start);
@@ -234,7 +191,7 @@ std::uint32_t Classifier::find_seed(std::uint32_t start) {
         stack_.pop_back();
         for (std::uint32_t i = side_begin_[region]; i < side_begin_[region + 1]; ++i) {
             const std::uint32_t patch = sides_[i] / 2, other = region_[sides_[i] ^ 1];
-            best = std::min(best, seed_[patch]);
+            best = std::min(best, patches_.first[patch]);
             if (gathered_[other]) continue;
             gathered_[other] = 1;
             stack_.push_back(other);
@@ -247,22 +204,23 @@ std::uint32_t Classifier::find_seed(std::uint32_t start) {
 void Classifier::add_ray(std::uint32_t seed) {
     const Soup& soup = *complex_.soup;
     const std::uint32_t own = complex_.facet(seed);
-    const int corner = complex_.is_piece(seed) ? corner_of_piece(seed) : 0;
-    const mesh::Triangle& facet = soup.facets[own];
-    const NearCorner near{soup.points[facet[corner]], soup.points[facet[(corner + 1) % 3]],
-                          soup.points[facet[(corner + 2) % 3]]};
-    const Plane own_plane = Plane::through(near.v, near.a, near.b);
+    const NearCorner near(points_, complex_.corners(seed));
+    const auto plane_of = [&](const mesh::Triangle& t) {
+        return Plane::through(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);
+    };
+    const Plane own_plane = plane_of(soup.facets[own]);
     const int axis = own_plane.dominant_axis(), outward = own_plane.normal(axis) > 0 ? 1 : -1;
-    tree_.for_each_on_ray(near.v, axis, outward, [&](std::uint32_t other) {
+    const auto [low, high] = near.bounds();
+    tree_.for_each_on_ray(low, high, axis, outward, [&](std::uint32_t other) {
         if (other == own) return;
         const mesh::Triangle& t = soup.facets[other];
         const Point p = soup.points[t[0]], q = soup.points[t[1]], r = soup.points[t[2]];
-        const Sign first = turn(axis, p, q, near);
-        if (first == Sign::zero || turn(axis, q, r, near) != first || turn(axis, r, p, near) != first) return;
+        const Sign first = near.turn(axis, p, q);
+        if (first == Sign::zero || near.turn(axis, q, r) != first || near.turn(axis, r, p) != first) return;
         // `first` is also the sign of the plane's normal along the axis: the facet faces the ray's end if that
         // agrees with the ray's direction. The ray crosses it if the near point is on its nearer side.
         const int faces_along = static_cast<int>(first) * outward;
-        if (static_cast<int>(side(Plane::through(p, q, r), near)) != -faces_along) return;
+        if (static_cast<int>(near.side_of(plane_of(t))) != -faces_along) return;
         ray_.push_back({soup.transition[other], faces_along});
         change(soup.transitions.of(soup.transition[other]), faces_along);
     });
@@ -270,7 +228,6 @@ void Classifier::add_ray(std::uint32_t seed) {
 
 Status Classifier::visit_component(std::uint32_t start) {
     const std::uint32_t seed = find_seed(start);
-    OCTAVO_CHECK(seed != no_index, "a component of the arrangement has no corner of a facet");
     add_ray(seed);
     const Status status = walk(region_[2 * patches_.of_triangle[seed]]);
     // The walk has taken its changes back unless it failed; those of the ray remain.

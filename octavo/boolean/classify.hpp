@@ -18,8 +18,8 @@
 // them, and takes the changes back on the way out. So thousands of operands cost one vector, not one a patch.
 //
 // Each connected part of the graph starts from one ray, in exact arithmetic: from a point that lies infinitely near
-// a corner of a facet, inside it, along an axis to the outside. "Infinitely near" is symbolic: the point is
-// v + ε (a - v) + ε² (b - v), so that it is on no plane and under no edge but its own facet's.
+// a corner of a triangle, inside it, along an axis to the outside. "Infinitely near" is symbolic: the point is
+// v + ε (a - v) + ε² (b - v), so that it is on no plane and under no edge but its own triangle's.
 //
 // A patch may belong to the result although neither side of it does: where closed operands share a face, both hold on
 // it and nowhere next to it. Such patches are *dangling*; regularised results do without them.

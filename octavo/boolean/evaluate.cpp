@@ -176,7 +176,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     Surface surface = select(complex, *patches, *classification, context);
     if (context.cancelled()) return Context::cancelled_error();
     if (options.simplify == Simplify::coplanar)
-        surface = merge_coplanar(std::move(surface), *soup, points, context);
+        surface = merge_coplanar(std::move(surface), *soup, contacts.faces, points, context);
     RoundedPoints rounded(*soup, points, context);
     if (context.cancelled()) return Context::cancelled_error();
     RoundingFaults faults = mend_rounding(surface, *soup, contacts.near, rounded, context);
@@ -189,7 +189,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
         Surface dangling = select_dangling(complex, *patches, *classification, context);
         if (context.cancelled()) return Context::cancelled_error();
         if (options.simplify == Simplify::coplanar)
-            dangling = merge_coplanar(std::move(dangling), *soup, points, context);
+            dangling = merge_coplanar(std::move(dangling), *soup, contacts.faces, points, context);
         if (context.cancelled()) return Context::cancelled_error();
         append_dangling(dangling, *soup, rounded, assembled);
         report.dangling_facets = dangling.triangles.size();

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/facet_tree.hpp>
 
 namespace octavo::boolean {
@@ -29,15 +30,23 @@ std::int32_t longest_side(const Soup& soup, std::uint32_t facet) {
 FacetTree::FacetTree(const Soup& soup, const Context& context, double reach) : reach_(reach) {
     const double limit =
         long_ratio * exact::universe_side / std::sqrt(static_cast<double>(soup.facets.size()) + 1);
+    constexpr std::size_t grain = 1 << 14;
     std::vector<char> is_long(soup.facets.size());
-    parallel_chunks(context, is_long.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    const std::vector<std::size_t> offset =
+        chunk_offsets(context, is_long.size(), grain, [&](std::size_t begin, std::size_t end) {
+            std::size_t count = 0;
+            for (std::size_t facet = begin; facet < end; ++facet) {
+                is_long[facet] = longest_side(soup, static_cast<std::uint32_t>(facet)) > limit;
+                count += is_long[facet] != 0;
+            }
+            return count;
+        });
+    std::vector<std::uint32_t> ordinary(is_long.size() - offset.back()), long_ones(offset.back());
+    parallel_chunks(context, is_long.size(), grain, [&](std::size_t begin, std::size_t end) {
+        std::size_t next_long = offset[begin / grain], next = begin - next_long;
         for (std::size_t facet = begin; facet < end; ++facet)
-            is_long[facet] = longest_side(soup, static_cast<std::uint32_t>(facet)) > limit;
+            (is_long[facet] ? long_ones[next_long++] : ordinary[next++]) = static_cast<std::uint32_t>(facet);
     });
-    std::vector<std::uint32_t> ordinary, long_ones;
-    ordinary.reserve(is_long.size());
-    for (std::uint32_t facet = 0; facet < is_long.size(); ++facet)
-        (is_long[facet] ? long_ones : ordinary).push_back(facet);
     // Of either box. Corners are integers: boxes that do not meet are a unit apart.
     const auto margin = reach < 1 ? 0 : static_cast<std::int32_t>(std::ceil(reach / 2));
     ordinary_ = BoxTree(soup, std::move(ordinary), margin, context);

@@ -56,12 +56,12 @@ class FacetTree {
         }
     }
 
-    /// Calls `visit(facet)` for each facet whose box meets the ray from `point` along `axis`, in the direction of
-    /// `sign`.
+    /// Calls `visit(facet)` for each facet whose box meets a ray that starts in the box from `low` to `high` and runs
+    /// along `axis`, in the direction of `sign`.
     template <class Visit>
-    void for_each_on_ray(exact::Point point, int axis, int sign, const Visit& visit) const {
+    void for_each_on_ray(exact::Point low, exact::Point high, int axis, int sign, const Visit& visit) const {
         for (const BoxTree* tree : {&ordinary_, &long_})
-            if (!tree->empty()) ray(*tree, tree->top(), 0, point, axis, sign, visit);
+            if (!tree->empty()) ray(*tree, tree->top(), 0, {low, high}, axis, sign, visit);
     }
 
   private:
@@ -142,21 +142,24 @@ class FacetTree {
         }
     }
 
+    struct Start {
+        exact::Point low, high;
+    };
     template <class Visit>
-    void ray(const BoxTree& tree, std::uint32_t level, std::uint32_t number, exact::Point point, int axis,
+    void ray(const BoxTree& tree, std::uint32_t level, std::uint32_t number, const Start& start, int axis,
              int sign, const Visit& visit) const {
         const BoxNode& node = tree.node(level, number);
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
         for (std::uint32_t lane = 0; lane < width; ++lane) {
-            const bool meets =
-                node.low[i][lane] <= point[i] && point[i] <= node.high[i][lane] &&
-                node.low[j][lane] <= point[j] && point[j] <= node.high[j][lane] &&
-                (sign > 0 ? node.high[axis][lane] >= point[axis] : node.low[axis][lane] <= point[axis]);
+            const bool meets = node.low[i][lane] <= start.high[i] && start.low[i] <= node.high[i][lane] &&
+                               node.low[j][lane] <= start.high[j] && start.low[j] <= node.high[j][lane] &&
+                               (sign > 0 ? node.high[axis][lane] >= start.low[axis]
+                                         : node.low[axis][lane] <= start.high[axis]);
             if (!meets) continue;
             if (level == 0)
                 visit(tree.facet(number * width + lane));
             else
-                ray(tree, level - 1, number * width + lane, point, axis, sign, visit);
+                ray(tree, level - 1, number * width + lane, start, axis, sign, visit);
         }
     }
 

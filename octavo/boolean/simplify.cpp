@@ -50,9 +50,11 @@ struct Borders {
 
 class CoplanarMerge {
   public:
-    CoplanarMerge(Surface surface, const Soup& soup, const PointTable& points, const Context& context)
+    CoplanarMerge(Surface surface, const Soup& soup, const Faces& faces, const PointTable& points,
+                  const Context& context)
         : surface_(std::move(surface)),
           soup_(soup),
+          faces_(faces),
           points_(points),
           context_(context),
           first_piece_(surface_.first_piece()),
@@ -83,7 +85,7 @@ class CoplanarMerge {
             }
     }
 
-    /// The sides between points of pieces; those points that whole facets have are pinned.
+    /// The sides between points of pieces, by their low points; those points that whole facets have are pinned.
     void find_sides() {
         struct Found {
             std::vector<Side> sides;
@@ -105,15 +107,23 @@ class CoplanarMerge {
                 }
             }
         });
+        // The sides of a point are counted two places on, and then its end is counted up from where it begins.
+        std::vector<std::uint32_t> begin_of(borders_.size() + 2, 0);
         pinned_.assign(borders_.size(), 0);
         for (const Found& part : found) {
             for (const std::uint32_t number : part.pinned) pinned_[number] = 1;
-            sides_.insert(sides_.end(), part.sides.begin(), part.sides.end());
+            for (const Side& side : part.sides) ++begin_of[number_of_[side.low] + 2];
         }
-        std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-            return a.low != b.low     ? a.low < b.low
-                   : a.high != b.high ? a.high < b.high
-                                      : a.triangle < b.triangle;
+        for (std::size_t i = 2; i < begin_of.size(); ++i) begin_of[i] += begin_of[i - 1];
+        sides_.resize(begin_of.back());
+        for (const Found& part : found)
+            for (const Side& side : part.sides) sides_[begin_of[number_of_[side.low] + 1]++] = side;
+        parallel_chunks(context_, borders_.size(), grain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t number = begin; number < end; ++number)
+                std::sort(sides_.begin() + begin_of[number], sides_.begin() + begin_of[number + 1],
+                          [](const Side& a, const Side& b) {
+                              return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+                          });
         });
     }
 
@@ -204,6 +214,8 @@ class CoplanarMerge {
             const Surface::Facet facet = surface_.facets[triangle];
             if (facet.soup_facet < region.name.soup_facet) region.name = facet;
             region.soup_facets.push_back(facet.soup_facet);
+            const std::uint32_t partner = faces_.partner(facet.soup_facet);
+            if (partner != no_index) region.soup_facets.push_back(partner);
         }
         std::sort(region.soup_facets.begin(), region.soup_facets.end());
         region.soup_facets.erase(std::unique(region.soup_facets.begin(), region.soup_facets.end()),
@@ -213,7 +225,10 @@ class CoplanarMerge {
     /// The region's triangles, from its border alone.
     std::vector<mesh::Triangle> triangulate(Region& region, Subdivision& subdivision) const {
         const Plane plane = surface_.plane(soup_, region.triangles[0]);
-        subdivision.begin_round(plane, soup_, region.soup_facets);
+        std::vector<exact::Point> corners;
+        for (const std::uint32_t facet : region.soup_facets)
+            for (const std::uint32_t corner : soup_.facets[facet]) corners.push_back(soup_.points[corner]);
+        subdivision.begin_round(plane, corners);
         std::vector<Subdivision::PointOnLine> points;
         for (const auto& [from, to] : region.border) points.push_back({from, Subdivision::no_line});
         // A point inside may be needed too: something touches the region there.
@@ -256,6 +271,7 @@ class CoplanarMerge {
         });
         surface_.triangles.resize(first_piece_);
         surface_.facets.resize(first_piece_);
+        surface_.merged.clear();
         for (const Region& region : regions) {
             surface_.triangles.insert(surface_.triangles.end(), region.merged.begin(), region.merged.end());
             surface_.facets.insert(surface_.facets.end(), region.merged.size(), region.name);
@@ -268,6 +284,7 @@ class CoplanarMerge {
 
     Surface surface_;
     const Soup& soup_;
+    const Faces& faces_;
     const PointTable& points_;
     const Context& context_;
     std::size_t first_piece_;
@@ -280,8 +297,9 @@ class CoplanarMerge {
 
 }  // namespace
 
-Surface merge_coplanar(Surface surface, const Soup& soup, const PointTable& points, const Context& context) {
-    return CoplanarMerge(std::move(surface), soup, points, context).run();
+Surface merge_coplanar(Surface surface, const Soup& soup, const Faces& faces, const PointTable& points,
+                       const Context& context) {
+    return CoplanarMerge(std::move(surface), soup, faces, points, context).run();
 }
 
 }  // namespace octavo::boolean

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <octavo/base/context.hpp>
+#include <octavo/boolean/faces.hpp>
 #include <octavo/boolean/surface.hpp>
 
 // Coplanar leftovers become whole again: pieces of cut facets that lie side by side in one plane are merged and
@@ -16,6 +17,7 @@
 namespace octavo::boolean {
 
 /// Cancellation leaves the result incomplete.
-Surface merge_coplanar(Surface surface, const Soup& soup, const PointTable& points, const Context& context);
+Surface merge_coplanar(Surface surface, const Soup& soup, const Faces& faces, const PointTable& points,
+                       const Context& context);
 
 }  // namespace octavo::boolean

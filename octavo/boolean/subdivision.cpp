@@ -13,8 +13,8 @@ namespace octavo::boolean {
 
 using exact::Sign;
 
-void Subdivision::begin(const exact::Plane& plane, const exact::Point (&corners)[3],
-                        const PointId (&ids)[3]) {
+void Subdivision::begin(const exact::Plane& plane, std::span<const exact::Point> corners,
+                        std::span<const PointId> ids) {
     plane_ = plane;
     axis_ = plane.dominant_axis();
     reversed_ = plane.normal(axis_) < 0;
@@ -24,24 +24,20 @@ void Subdivision::begin(const exact::Plane& plane, const exact::Point (&corners)
     vertex_of_.assign(16, no_index);
     hint_ = 0, walk_seed_ = 1;
     triangles_.push_back({{0, 1, 2}, {no_index, no_index, no_index}, {0, 0, 0}});
-    for (int k = 0; k < 3; ++k) {
+    if (corners.size() == 4) {
+        triangles_.push_back({{0, 2, 3}, {0, no_index, no_index}, {0, 0, 0}});
+        triangles_[0].neighbour[2] = 1;
+    }
+    for (std::size_t k = 0; k < corners.size(); ++k) {
         const exact::Point corner = corners[k];
         const Vertex vertex{static_cast<double>(corner[i_]),
                             static_cast<double>(corner[j_]),
                             ids[k],
-                            0,
+                            k == 3 ? 1u : 0u,
                             corner,
                             Vertex::Kind::lattice};
         push(vertex);
     }
-}
-
-void Subdivision::begin_round(const exact::Plane& plane, const Soup& soup,
-                              std::span<const std::uint32_t> facets) {
-    round_.clear();
-    for (const std::uint32_t facet : facets)
-        for (const std::uint32_t corner : soup.facets[facet]) round_.push_back(soup.points[corner]);
-    begin_round(plane, round_);
 }
 
 void Subdivision::begin_round(const exact::Plane& plane, std::span<const exact::Point> points) {

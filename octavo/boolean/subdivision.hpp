@@ -52,16 +52,15 @@ class Subdivision {
     explicit Subdivision(const PointTable& points, std::span<const exact::Plane> cut_planes = {})
         : points_(points), cut_planes_(cut_planes) {}
 
-    /// Starts with the triangle of three lattice points of `plane` (or any that, seen along the plane's dominant
-    /// axis, surround all that will be inserted). They become vertices 0, 1 and 2 and must turn
-    /// counter-clockwise seen from the plane's front; `ids` are their point ids, no_index for points that are in no
-    /// table.
-    void begin(const exact::Plane& plane, const exact::Point (&corners)[3], const PointId (&ids)[3]);
+    /// Starts with a triangle, or a strictly convex quadrilateral, of lattice points of `plane` (or any that, seen along
+    /// the plane's dominant axis, surround all that will be inserted). They become the vertices 0, 1, 2 and 3 and must
+    /// turn counter-clockwise seen from the plane's front; `ids` are their point ids, no_index for points that are in
+    /// no table.
+    void begin(const exact::Plane& plane, std::span<const exact::Point> corners,
+               std::span<const PointId> ids);
 
     /// Starts with a triangle that holds these points strictly inside. Its corners are in no table.
     void begin_round(const exact::Plane& plane, std::span<const exact::Point> points);
-    /// The same, for the corners of facets of the soup.
-    void begin_round(const exact::Plane& plane, const Soup& soup, std::span<const std::uint32_t> facets);
 
     /// Where segments lie: the line that this plane has in common with another one. Numbers below that of the cut
     /// planes are theirs; more are made by `add_line`. Equal lines should have equal numbers, for speed.
@@ -176,7 +175,6 @@ class Subdivision {
     std::vector<exact::TriplePoint> new_points_;
     std::vector<std::uint32_t> vertex_of_;  ///< hash of point id to vertex
     std::vector<std::pair<VertexId, VertexId>> in_the_way_;
-    std::vector<exact::Point> round_;  ///< what a first triangle is to hold
     std::vector<TriangleId> pending_;  ///< triangles whose edge opposite to a new vertex may have to go
     TriangleId hint_ = 0;
     std::uint32_t walk_seed_ = 1;

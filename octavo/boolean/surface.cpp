@@ -25,6 +25,7 @@ Surface select(const Complex& complex, const Patches& patches, const Classificat
             return count;
         });
     Surface surface;
+    surface.merged = complex.joined;
     surface.triangles.resize(offset.back());
     surface.facets.resize(offset.back());
     parallel_chunks(context, complex.size(), grain, [&](std::size_t begin, std::size_t end) {

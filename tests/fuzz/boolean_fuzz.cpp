@@ -21,23 +21,52 @@ class Bytes {
     Bytes(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
     unsigned next(unsigned below) { return at_ == end_ ? 0 : *at_++ % below; }
     bool done() const { return at_ == end_; }
+    bool any_hexahedron = false;
 
   private:
     const std::uint8_t *at_, *end_;
 };
 
-/// Tetrahedra with corners on a grid of 4³; closed however they overlap, and of either orientation.
+Vec3 read_point(Bytes& bytes) {
+    const unsigned x = bytes.next(4), y = bytes.next(4), z = bytes.next(4);
+    return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+}
+
+void add_tetrahedron(Bytes& bytes, mesh::Mesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int corner = 0; corner < 4; ++corner) mesh.vertices.push_back(read_point(bytes));
+    for (const mesh::Triangle& t : {mesh::Triangle{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}})
+        mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+}
+
+/// Quadrilaterals all round, each cut in two along either diagonal. With corners anywhere they are not flat; of a
+/// parallelepiped they are.
+void add_hexahedron(Bytes& bytes, mesh::Mesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const Vec3 corner = read_point(bytes), a = read_point(bytes), b = read_point(bytes),
+               c = read_point(bytes);
+    for (unsigned k = 0; k < 8; ++k)
+        mesh.vertices.push_back(corner + (k & 1 ? a : Vec3{}) + (k & 2 ? b : Vec3{}) + (k & 4 ? c : Vec3{}));
+    const unsigned diagonals = bytes.next(256);
+    if (diagonals & 64) mesh.vertices[first + 7] = read_point(bytes);
+    constexpr std::uint32_t sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                           {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    for (unsigned side = 0; side < 6; ++side) {
+        const std::uint32_t(&q)[4] = sides[side];
+        const unsigned k = diagonals >> side & 1;
+        mesh.triangles.push_back({first + q[k], first + q[k + 1], first + q[k + 2]});
+        mesh.triangles.push_back({first + q[k + 2], first + q[(k + 3) % 4], first + q[k]});
+    }
+}
+
+/// Bodies with corners on a small grid; closed however they overlap, and of either orientation.
 mesh::Mesh read_operand(Bytes& bytes) {
     mesh::Mesh mesh;
     const unsigned parts = 1 + bytes.next(4);
     for (unsigned part = 0; part < parts; ++part) {
-        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-        for (int corner = 0; corner < 4; ++corner) {
-            const unsigned x = bytes.next(4), y = bytes.next(4), z = bytes.next(4);
-            mesh.vertices.push_back({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
-        }
-        for (const mesh::Triangle& t : {mesh::Triangle{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}})
-            mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        const bool is_hexahedron = bytes.next(2) != 0;
+        bytes.any_hexahedron = bytes.any_hexahedron || is_hexahedron;
+        is_hexahedron ? add_hexahedron(bytes, mesh) : add_tetrahedron(bytes, mesh);
     }
     return mesh;
 }
@@ -100,8 +129,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(near(volume(boolean::subtract, pair), a - both));
     require(near(volume(boolean::symmetric_difference, pair), either - both));
     require(near(volume(boolean::unite, swapped), either) && near(volume(boolean::intersect, swapped), both));
-    // A tolerance moves surfaces, but opens nothing.
+    // A tolerance moves surfaces, but opens nothing that it does not say. Thin hexahedra may be refused.
     options.tolerance = {0.001 * (1 + bytes.next(50)), boolean::Tolerance::Of::size};
-    volume(boolean::unite, pair), volume(boolean::subtract, pair);
+    for (const auto& result :
+         {boolean::unite(pair, options, context), boolean::subtract(pair, options, context)}) {
+        if (result)
+            require_manifold(result->mesh);
+        else
+            require(bytes.any_hexahedron && result.error().code == ErrorCode::not_a_solid);
+    }
     return 0;
 }
