@@ -4,21 +4,15 @@
 #include <numeric>
 
 #include <octavo/io/facet_regions.hpp>
+#include <octavo/mesh/area_vector.hpp>
 #include <octavo/mesh/collinear.hpp>
 
 namespace octavo::io {
 namespace {
 
+using mesh::area_vector;
 using mesh::orient2d;
 using mesh::Point2;
-
-/// Normal times twice the area, after Newell.
-Vec3 area_vector(std::span<const Vec3> contour) {
-    Vec3 sum;
-    for (std::size_t i = 1; i + 1 < contour.size(); ++i)
-        sum = sum + cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
-    return sum;
-}
 
 /// Twice the signed area of a triangle, rounded.
 double area_of(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }

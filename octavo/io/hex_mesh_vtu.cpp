@@ -5,31 +5,13 @@
 
 #include <octavo/io/hex_mesh_vtu.hpp>
 #include <octavo/io/output.hpp>
-#include <octavo/io/vtk_appended.hpp>
+#include <octavo/io/vtk_arrays.hpp>
 #include <octavo/mesh/filled_parts.hpp>
 
 namespace octavo::io {
 namespace {
 
 constexpr std::uint8_t vtk_hexahedron = 12;
-
-/// Collects arrays and the XML that names them.
-class Arrays {
-  public:
-    template <class T, class Fill>
-    void add(std::string& xml, const char* type, const std::string& name, const char* more,
-             const Fill& fill) {
-        const std::uint64_t offset = data_.begin_array();
-        fill([&](T value) { data_.add(value); });
-        data_.end_array();
-        xml += std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\"" + more +
-               " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
-    }
-    const VtkAppendedData& data() const { return data_; }
-
-  private:
-    VtkAppendedData data_;
-};
 
 std::int32_t first_solid(const mesh::SolidSet& set) {
     std::int32_t first = -1;
@@ -39,7 +21,7 @@ std::int32_t first_solid(const mesh::SolidSet& set) {
     return first;
 }
 
-std::string cell_data(Arrays& arrays, const mesh::HexMesh& mesh, std::span<const CellData> more) {
+std::string cell_data(VtkArrays& arrays, const mesh::HexMesh& mesh, std::span<const CellData> more) {
     std::string xml;
     const auto per_cell = [&](const auto& value_of) {
         return [&mesh, &value_of](const auto& put) {
@@ -65,7 +47,7 @@ std::string cell_data(Arrays& arrays, const mesh::HexMesh& mesh, std::span<const
     return xml;
 }
 
-std::string point_data(Arrays& arrays, const mesh::HexMesh& mesh) {
+std::string point_data(VtkArrays& arrays, const mesh::HexMesh& mesh) {
     std::vector<std::uint8_t> masters(mesh.node_count(), 0);
     for (const mesh::EdgeHangingNode& hanging : mesh.edge_hanging) masters[hanging.node] = 2;
     for (const mesh::FaceHangingNode& hanging : mesh.face_hanging) masters[hanging.node] = 4;
@@ -76,7 +58,7 @@ std::string point_data(Arrays& arrays, const mesh::HexMesh& mesh) {
     return xml;
 }
 
-std::string points(Arrays& arrays, const mesh::HexMesh& mesh) {
+std::string points(VtkArrays& arrays, const mesh::HexMesh& mesh) {
     std::string xml;
     arrays.add<double>(xml, "Float64", "Points", " NumberOfComponents=\"3\"", [&](const auto& put) {
         for (mesh::NodeIndex node = 0; node < mesh.node_count(); ++node) {
@@ -87,7 +69,7 @@ std::string points(Arrays& arrays, const mesh::HexMesh& mesh) {
     return xml;
 }
 
-std::string cells(Arrays& arrays, const mesh::HexMesh& mesh) {
+std::string cells(VtkArrays& arrays, const mesh::HexMesh& mesh) {
     // VTK goes round the bottom, then round the top.
     constexpr std::array<std::size_t, 8> around{0, 1, 3, 2, 4, 5, 7, 6};
     std::string xml;
@@ -112,7 +94,7 @@ Result<WriteReport> write_vtu(const std::string& path, const mesh::HexMesh& mesh
         OCTAVO_CHECK(data.values.size() == mesh.cell_count(), "cell data has a value for each cell");
     Result<Output> output = Output::to_file(path);
     if (!output) return output.error();
-    Arrays arrays;
+    VtkArrays arrays;
     std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" ";
     xml += VtkAppendedData::file_attributes();
     xml += ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" + std::to_string(mesh.node_count()) +

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/io/obj.hpp>
 #include <octavo/io/text_scanner.hpp>
 
@@ -38,9 +39,12 @@ class ObjReader {
             return scanner_.error_at(greatest_at_, "the face names vertex " + std::to_string(greatest_ + 1) +
                                                        " of " + std::to_string(result_.vertices.size()));
         }
+        if (is_no_obj_ && result_.vertices.empty() && result_.faces.size() == 0)
+            return Error{ErrorCode::bad_input, "has no vertices, but statements that are none of OBJ", {}};
         if (free_form_ > 0)
-            result_.warnings.push_back(std::to_string(free_form_) +
-                                       " free-form curves and surfaces are left out");
+            result_.warnings.push_back(
+                counted(free_form_, "free-form curve or surface is", "free-form curves and surfaces are") +
+                " left out");
         return std::move(result_);
     }
 
@@ -96,6 +100,7 @@ class ObjReader {
         }
         for (const Statement& statement : statements)
             if (statement.keyword == keyword) return result_.leave_behind(statement.kind);
+        is_no_obj_ = true;
         result_.leave_behind("other statements");
     }
 
@@ -167,6 +172,7 @@ class ObjReader {
     ReadingPace pace_;
     FileMesh result_;
     std::vector<mesh::VertexIndex> corners_;
+    bool is_no_obj_ = false;             ///< there are statements that are not known
     mesh::VertexIndex greatest_ = 0;     ///< the greatest vertex that a face names
     const char* greatest_at_ = nullptr;  ///< where
     std::size_t free_form_ = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/io/off.hpp>
 #include <octavo/io/text_scanner.hpp>
 
@@ -46,7 +47,9 @@ void note_what_is_left_behind(const Variant& variant, FileMesh& file) {
 }
 
 std::string ignored_bytes(std::size_t count) {
-    return std::to_string(count) + " bytes after the last announced face are ignored";
+    return counted(count, "byte after the last announced face is",
+                   "bytes after the last announced face are") +
+           " ignored";
 }
 
 Error not_three_dimensional() {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/io/ply.hpp>
 #include <octavo/io/ply_header.hpp>
 #include <octavo/io/text_scanner.hpp>
@@ -172,8 +173,9 @@ class BodyReader {
             if (const std::optional<Error> error = read_element(element)) return *error;
         }
         if (const std::size_t unread = values_.unread(); unread > 0)
-            result_.warnings.push_back(std::to_string(unread) +
-                                       " bytes after the last announced element are ignored");
+            result_.warnings.push_back(counted(unread, "byte after the last announced element is",
+                                               "bytes after the last announced element are") +
+                                       " ignored");
         note_what_is_left_behind();
         return std::move(result_);
     }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <new>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/io/assimp_import.hpp>
 #include <octavo/io/file_mesh.hpp>
 #include <octavo/io/format.hpp>
@@ -80,12 +81,18 @@ Result<Found> find_mesh(const std::string& path, const ReadOptions& options, con
 std::vector<std::string> remarks(const FileMesh& file) {
     std::vector<std::string> warnings = file.warnings;
     if (file.faces.too_small() > 0)
-        warnings.push_back(std::to_string(file.faces.too_small()) +
-                           " faces of fewer than three corners are left out");
+        warnings.push_back(counted(file.faces.too_small(), "face of fewer than three corners is",
+                                   "faces of fewer than three corners are") +
+                           " left out");
+    if (file.faces.size() == 0) warnings.push_back("the file has no facets: the solid is empty");
     return warnings;
 }
 
-Error no_facets() { return {ErrorCode::bad_input, "has no facets", {}}; }
+/// A file without anything is an empty solid, which programs write when nothing is left of one. Vertices alone are points,
+/// or a file that was cut off.
+Error no_facets(std::size_t vertices) {
+    return {ErrorCode::bad_input, "has no facets, only " + counted(vertices, "vertex", "vertices"), {}};
+}
 Error too_large() { return {ErrorCode::limit, "has more vertices or facets than 32 bits number", {}}; }
 
 /// Splits the faces into triangles and counts those that are no simple polygons.
@@ -109,15 +116,17 @@ Status triangulate(const FileMesh& file, ReadMesh& result, const Context& contex
         result.polygon_of_triangle.resize(result.mesh.triangles.size(), number);
     }
     if (crossing > 0)
-        result.warnings.push_back(std::to_string(crossing) +
-                                  " polygons cross themselves; their triangles overlap");
+        result.warnings.push_back(
+            counted(crossing, "polygon crosses itself; its", "polygons cross themselves; their") +
+            " triangles overlap");
     if (context.cancelled()) return Context::cancelled_error();
     return Done{};
 }
 
 Result<ReadMesh> to_mesh(Found found, const Context& context) {
     FaceList& faces = found.file.faces;
-    if (faces.size() == 0) return no_facets();
+    const std::size_t vertices = found.file.vertices.size();
+    if (faces.size() == 0 && vertices > 0) return no_facets(vertices);
     ReadMesh result;
     result.format = std::move(found.format);
     result.warnings = remarks(found.file);
@@ -132,7 +141,8 @@ Result<ReadMesh> to_mesh(Found found, const Context& context) {
         if (faces.size() > most_indices) return too_large();
         if (const Status cut = triangulate(found.file, result, context); !cut) return cut.error();
     }
-    if (result.mesh.triangles.empty()) return no_facets();  // all were polygons without area
+    // Polygons without area leave vertices alone too.
+    if (result.mesh.triangles.empty() && vertices > 0) return no_facets(vertices);
     if (result.mesh.triangles.size() > most_indices) return too_large();
     result.mesh.vertices = std::move(found.file.vertices);
     return result;
@@ -140,7 +150,7 @@ Result<ReadMesh> to_mesh(Found found, const Context& context) {
 
 Result<ReadPolygons> to_polygons(Found found) {
     const FaceList& faces = found.file.faces;
-    if (faces.size() == 0) return no_facets();
+    if (faces.size() == 0 && !found.file.vertices.empty()) return no_facets(found.file.vertices.size());
     ReadPolygons result;
     result.format = std::move(found.format);
     result.warnings = remarks(found.file);

@@ -54,7 +54,8 @@ struct ReadPolygons {
 };
 
 /// Reads the file `path`, or standard input when it is "-". Fails with ErrorCode::bad_input and a Place when
-/// the file is not what it claims to be or has no facets, unsupported for what Octavo does not read, limit
+/// the file is not what it claims to be or has vertices and no facets (without either it is an empty solid, with a warning),
+/// unsupported for what Octavo does not read, limit
 /// for more vertices or facets than 32-bit indices number, and io when the system refuses.
 Result<ReadMesh> read_mesh(const std::string& path, const ReadOptions& options = {},
                            const Context& context = {});

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/io/stl.hpp>
 #include <octavo/io/text_scanner.hpp>
 #include <octavo/io/vertex_welder.hpp>
@@ -73,11 +74,15 @@ Result<FileMesh> read_binary(Bytes bytes, const Context& context) {
         return error_at_byte(bytes.size(), "the header announces " + std::to_string(facets) +
                                                " facets but the file ends after " + std::to_string(room));
     if (facets > most_facets) return too_many_facets();
+    // Programs that write while they compute leave the count at 0 when they are stopped.
+    if (facets == 0 && bytes.size() > header_size)
+        return error_at_byte(header_size, "the header announces no facets, but more bytes follow");
     Result<FileMesh> result = read_binary(bytes, facets, context);
     const std::size_t used = header_size + facets * facet_size;
     if (result && used < bytes.size())
-        result->warnings.push_back(std::to_string(bytes.size() - used) +
-                                   " bytes after the last announced facet are ignored");
+        result->warnings.push_back(counted(bytes.size() - used, "byte after the last announced facet is",
+                                           "bytes after the last announced facet are") +
+                                   " ignored");
     return result;
 }
 
@@ -96,7 +101,8 @@ class TextReader {
         if (!is("solid")) return unexpected("solid");
         read_name();
         bool inside = true;
-        for (std::size_t facets = 0;;) {
+        std::size_t facets = 0;
+        for (;;) {
             const std::string_view word = scanner_.word();
             if (word.empty()) break;
             if (equals_ignoring_case(word, "facet")) {
@@ -113,6 +119,7 @@ class TextReader {
                 return unexpected("facet");
             }
         }
+        if (inside && facets == 0) return unexpected("facet");
         if (inside) result_.warnings.push_back("the last solid does not end with \"endsolid\"");
         result_.vertices = welder_.vertices();
         return std::move(result_);

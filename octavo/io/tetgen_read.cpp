@@ -142,7 +142,8 @@ class BoundaryReader {
 
     Result<FileMesh> read() {
         Result<Points> points = read_points(rows_);
-        if (points && points->points.empty()) points = read_points_beside(path_, context_);
+        if (points && points->points.empty() && !has_no_facets())
+            points = read_points_beside(path_, context_);
         if (!points) return points.error();
         result_.vertices = std::move(points->points);
         first_ = points->first;
@@ -156,6 +157,12 @@ class BoundaryReader {
     }
 
   private:
+    /// An empty solid needs no points. Before the facets are read.
+    bool has_no_facets() const {
+        Rows ahead = rows_;
+        return ahead.count() == 0U;
+    }
+
     std::optional<Error> read_facets() {
         const std::optional<std::uint64_t> count = rows_.count();
         if (!count) return rows_.expected("the number of facets");

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/io/three_mf.hpp>
 #include <octavo/io/three_mf_parts.hpp>
 #include <octavo/io/zip.hpp>
@@ -57,7 +58,8 @@ class Assembler {
             if (std::optional<Error> trouble = place(**object, item.transform)) return *trouble;
         }
         if (supports_ > 0)
-            result_.warnings.push_back(std::to_string(supports_) + " support structures are left out");
+            result_.warnings.push_back(counted(supports_, "support structure is", "support structures are") +
+                                       " left out");
         note_what_is_left_behind();
         return std::move(result_);
     }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <octavo/io/output.hpp>
 #include <octavo/io/vertex_welder.hpp>
-#include <octavo/io/vtk_appended.hpp>
+#include <octavo/io/vtk_arrays.hpp>
 #include <octavo/io/vtu.hpp>
 #include <octavo/octree/cell.hpp>
 
@@ -43,58 +44,56 @@ Grid grid_of(const octree::Octree& octree, const LeafChoice& choice) {
     return grid;
 }
 
-void append_array(Output& output, const char* type, const char* name, const char* more,
-                  std::uint64_t offset) {
-    output.append(std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\"" + more +
-                  " format=\"appended\" offset=\"");
-    output.append_number(offset);
-    output.append("\"/>\n");
+std::string points_of(VtkArrays& arrays, const Grid& grid, const exact::Lattice& lattice) {
+    std::string xml;
+    arrays.add<double>(xml, "Float64", "Points", " NumberOfComponents=\"3\"", [&](const auto& put) {
+        for (const Vec3& corner : grid.corners) {
+            const Vec3 world =
+                lattice.to_world({static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y),
+                                  static_cast<std::int32_t>(corner.z)});
+            for (int axis = 0; axis < 3; ++axis) put(world[axis]);
+        }
+    });
+    return xml;
+}
+
+std::string cells_of(VtkArrays& arrays, const Grid& grid) {
+    std::string xml;
+    arrays.add<std::int64_t>(xml, "Int64", "connectivity", "", [&](const auto& put) {
+        for (const auto& cell : grid.cells)
+            for (const mesh::VertexIndex corner : cell) put(std::int64_t{corner});
+    });
+    arrays.add<std::int64_t>(xml, "Int64", "offsets", "", [&](const auto& put) {
+        for (std::size_t i = 1; i <= grid.cells.size(); ++i) put(static_cast<std::int64_t>(8 * i));
+    });
+    arrays.add<std::uint8_t>(xml, "UInt8", "types", "", [&](const auto& put) {
+        for (std::size_t i = 0; i < grid.cells.size(); ++i) put(vtk_hexahedron);
+    });
+    return xml;
+}
+
+std::string cell_data_of(VtkArrays& arrays, const Grid& grid) {
+    std::string xml;
+    for (const auto& [name, values] : {std::pair("color", &grid.colors), std::pair("level", &grid.levels)})
+        arrays.add<std::uint8_t>(xml, "UInt8", name, "", [values = values](const auto& put) {
+            for (const std::uint8_t value : *values) put(value);
+        });
+    return xml;
 }
 
 void write_grid(Output& output, const Grid& grid, const exact::Lattice& lattice) {
-    VtkAppendedData data;
-    const std::uint64_t points = data.begin_array();
-    for (const Vec3& corner : grid.corners) {
-        const Vec3 world =
-            lattice.to_world({static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y),
-                              static_cast<std::int32_t>(corner.z)});
-        for (int axis = 0; axis < 3; ++axis) data.add(world[axis]);
-    }
-    data.end_array();
-    const std::uint64_t connectivity = data.begin_array();
-    for (const auto& cell : grid.cells)
-        for (const mesh::VertexIndex corner : cell) data.add(std::int64_t{corner});
-    data.end_array();
-    const std::uint64_t offsets = data.begin_array();
-    for (std::size_t i = 1; i <= grid.cells.size(); ++i) data.add(static_cast<std::int64_t>(8 * i));
-    data.end_array();
-    const std::uint64_t types = data.begin_array();
-    for (std::size_t i = 0; i < grid.cells.size(); ++i) data.add(vtk_hexahedron);
-    data.end_array();
-    const std::uint64_t colors = data.begin_array();
-    for (const std::uint8_t color : grid.colors) data.add(color);
-    data.end_array();
-    const std::uint64_t levels = data.begin_array();
-    for (const std::uint8_t level : grid.levels) data.add(level);
-    data.end_array();
-
+    VtkArrays arrays;
+    const std::string points = points_of(arrays, grid, lattice), cells = cells_of(arrays, grid),
+                      cell_data = cell_data_of(arrays, grid);
     output.append("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" ");
     output.append(VtkAppendedData::file_attributes());
     output.append(">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
     output.append_number(std::uint64_t{grid.corners.size()});
     output.append("\" NumberOfCells=\"");
     output.append_number(std::uint64_t{grid.cells.size()});
-    output.append("\">\n<CellData Scalars=\"color\">\n");
-    append_array(output, "UInt8", "color", "", colors);
-    append_array(output, "UInt8", "level", "", levels);
-    output.append("</CellData>\n<Points>\n");
-    append_array(output, "Float64", "Points", " NumberOfComponents=\"3\"", points);
-    output.append("</Points>\n<Cells>\n");
-    append_array(output, "Int64", "connectivity", "", connectivity);
-    append_array(output, "Int64", "offsets", "", offsets);
-    append_array(output, "UInt8", "types", "", types);
-    output.append("</Cells>\n</Piece>\n</UnstructuredGrid>\n");
-    data.write(output);
+    output.append("\">\n<CellData Scalars=\"color\">\n" + cell_data + "</CellData>\n<Points>\n" + points +
+                  "</Points>\n<Cells>\n" + cells + "</Cells>\n</Piece>\n</UnstructuredGrid>\n");
+    arrays.data().write(output);
     output.append("</VTKFile>\n");
 }
 

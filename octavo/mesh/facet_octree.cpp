@@ -124,8 +124,9 @@ class PairDescent {
 
     /// Descends no further than to cells with few enough facets for one task; these and the pairs met on the way
     /// become the tasks.
-    std::vector<PairTask> run_to_tasks(std::vector<FaceIndex> faces) {
+    std::vector<PairTask> run_to_tasks(std::vector<FaceIndex> faces, const Context& context) {
         std::vector<PairTask> tasks;
+        context_ = &context;
         tasks_ = &tasks;
         stack_ = std::move(faces);
         visit(FacetCell{}, 0);
@@ -138,6 +139,7 @@ class PairDescent {
 
     /// The cell's list is the stack from `begin` to its top; it is gone afterwards.
     void visit(const FacetCell& cell, std::size_t begin) {
+        if (context_ && context_->cancelled()) return stack_.resize(begin);
         ListSize size = size_from(begin);
         const auto all = [](FaceIndex) { return true; };
         if (tasks_ && size.all <= task_size) {
@@ -260,6 +262,7 @@ class PairDescent {
     const std::vector<bool>& is_hub_;
     const PairVisitor& visit_pairs_;
     std::vector<PairTask>* tasks_ = nullptr;  ///< where tasks go instead of visits
+    const Context* context_ = nullptr;        ///< asked while tasks are made; visits are short
     std::vector<FaceIndex> stack_, chosen_;
     std::vector<std::uint8_t> masks_;
 };
@@ -282,14 +285,14 @@ bool apart(std::int64_t a, std::int64_t b, std::int64_t radius) {
 
 }  // namespace
 
-std::vector<PairTask> make_pair_tasks(const PairSearch& search) {
+std::vector<PairTask> make_pair_tasks(const PairSearch& search, const Context& context) {
     std::vector<FaceIndex> faces;
     for (FaceIndex face = 0; face < search.triangles.size(); ++face) {
         const auto [a, b, c] = search.triangles[face];
         if (a != b && b != c && c != a) faces.push_back(face);
     }
     const PairVisitor nobody;
-    return PairDescent(search, nobody).run_to_tasks(std::move(faces));
+    return PairDescent(search, nobody).run_to_tasks(std::move(faces), context);
 }
 
 void for_near_pairs(const PairTask& task, const PairSearch& search, const PairVisitor& visit) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <octavo/base/context.hpp>
 #include <octavo/mesh/mesh.hpp>
 
 // A descent over lists of facets that ends in cells with few of them: whatever two facets have in common, they are
@@ -76,8 +77,8 @@ struct PairSearch {
 };
 
 /// Splits the search over the whole universe into pieces, which do not depend on the threads. Facets that repeat a
-/// vertex are left out.
-std::vector<PairTask> make_pair_tasks(const PairSearch& search);
+/// vertex are left out. Cancelled: some pieces are missing.
+std::vector<PairTask> make_pair_tasks(const PairSearch& search, const Context& context);
 
 /// Visits the pairs of facets that may meet in the task's cell.
 void for_near_pairs(const PairTask& task, const PairSearch& search, const PairVisitor& visit);

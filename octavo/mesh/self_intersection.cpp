@@ -3,8 +3,10 @@
 #include <functional>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/base/shared_progress.hpp>
 #include <octavo/mesh/facet_octree.hpp>
 #include <octavo/mesh/facet_pair.hpp>
+#include <octavo/mesh/repeats.hpp>
 #include <octavo/mesh/self_intersection.hpp>
 
 namespace octavo::mesh {
@@ -21,8 +23,6 @@ constexpr std::size_t least_fan = 25;
 
 // Vertices whose stars are searched at once: far above the cost of handing out work.
 constexpr std::size_t stars_at_once = 4096;
-
-bool names_a_vertex_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 /// The facets round each vertex; facets that repeat a vertex are left out.
 struct Stars {
@@ -204,22 +204,28 @@ Result<SelfIntersections> find_self_intersections(std::span<const Point> points,
                                                   const Context& context) {
     const Stars stars = gather_stars(triangles, points.size());
     std::vector<SelfIntersections> found((points.size() + stars_at_once - 1) / stars_at_once);
+    constexpr std::string_view phase = "self-intersections";
+    SharedProgress in_stars(context, phase, found.size(), 0, 0.4);
     parallel_chunks(context, points.size(), stars_at_once, [&](std::size_t begin, std::size_t end) {
         std::vector<Facet> star;
         for (auto vertex = static_cast<VertexIndex>(begin); vertex < end; ++vertex)
             if (stars.searched(vertex))
                 search_star(points, triangles, stars.of(vertex), vertex, star, found[begin / stars_at_once]);
+        in_stars.step();
     });
 
     if (context.cancelled()) return Context::cancelled_error();
     const std::vector<bool> hubs = stars.hubs();
     const PairSearch search{points, triangles, hubs};
-    const std::vector<PairTask> tasks = make_pair_tasks(search);
+    const std::vector<PairTask> tasks = make_pair_tasks(search, context);
+    if (context.cancelled()) return Context::cancelled_error();
     const std::size_t first_task = found.size();
     found.resize(first_task + tasks.size());
+    SharedProgress in_cells(context, phase, tasks.size(), 0.5, 1);
     parallel_chunks(context, tasks.size(), 1, [&](std::size_t task, std::size_t) {
         CellSearch cell_search(points, triangles, stars, found[first_task + task]);
         for_near_pairs(tasks[task], search, std::ref(cell_search));
+        in_cells.step();
     });
     if (context.cancelled()) return Context::cancelled_error();
     return merged(found);

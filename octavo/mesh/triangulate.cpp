@@ -4,20 +4,15 @@
 #include <utility>
 
 #include <octavo/base/check.hpp>
+#include <octavo/mesh/area_vector.hpp>
 #include <octavo/mesh/collinear.hpp>
+#include <octavo/mesh/repeats.hpp>
 #include <octavo/mesh/triangulate.hpp>
 
 namespace octavo::mesh {
 namespace {
 
 /// The normal of the outer contour times twice its area, after Newell. Rounded: it only chooses the view.
-Vec3 area_vector(std::span<const Vec3> contour) {
-    Vec3 sum;
-    for (std::size_t i = 1; i + 1 < contour.size(); ++i)
-        sum = sum + cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
-    return sum;
-}
-
 /// Coordinate axes, the one nearest to `normal` first.
 std::array<int, 3> axes_by_closeness(Vec3 normal) {
     std::array<int, 3> axes{0, 1, 2};
@@ -25,8 +20,6 @@ std::array<int, 3> axes_by_closeness(Vec3 normal) {
                      [&](int a, int b) { return std::fabs(normal[a]) > std::fabs(normal[b]); });
     return axes;
 }
-
-bool names_a_vertex_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 }  // namespace
 

@@ -3,9 +3,11 @@
 #include <optional>
 #include <utility>
 
-#include <octavo/base/grouped.hpp>
+#include <octavo/base/counted.hpp>
+#include <octavo/base/shared_progress.hpp>
 #include <octavo/exact/orient.hpp>
 #include <octavo/mesh/collinear.hpp>
+#include <octavo/mesh/repeats.hpp>
 #include <octavo/mesh/self_intersection.hpp>
 #include <octavo/mesh/shells.hpp>
 #include <octavo/mesh/snap.hpp>
@@ -21,11 +23,6 @@ struct Finding {
     std::uint64_t count = 0;
     std::vector<FaceIndex> faces;
 };
-
-/// "1 edge has" / "12 edges have".
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-    return grouped(count) + " " + (count == 1 ? one : many);
-}
 
 std::string sentence_of(ProblemKind kind, std::uint64_t n) {
     switch (kind) {
@@ -79,27 +76,37 @@ class Validation {
         report_.vertices = mesh_.vertices.size();
         const Status prepared = prepare();
         if (!prepared) return prepared.error();
-        context_.report("check", 0);
+        if (!goes_on(0.05)) return Context::cancelled_error();
+        // Shares of the time as measured on scans.
         judge_edges();
+        if (!goes_on(0.1)) return Context::cancelled_error();
         judge_vertices();
+        if (!goes_on(0.15)) return Context::cancelled_error();
         if (options_.topology_only) {
             conclude();
             return std::move(report_);
         }
         judge_facets();
-        if (context_.cancelled()) return Context::cancelled_error();
+        if (!goes_on(0.2)) return Context::cancelled_error();
         judge_shells();
-        context_.report("check", 0.3);
+        if (!goes_on(0.3)) return Context::cancelled_error();
         if (options_.self_intersections) {
             const Status searched = judge_pairs();
             if (!searched) return searched.error();
         }
-        context_.report("check", 1);
+        context_.report(phase, 1);
         conclude();
         return std::move(report_);
     }
 
   private:
+    static constexpr std::string_view phase = "check";
+
+    /// Tells how far the work is; false when it should stop.
+    bool goes_on(double done) const {
+        context_.report(phase, done);
+        return !context_.cancelled();
+    }
     Status prepare();
     void judge_edges();
     void judge_vertices();
@@ -121,6 +128,7 @@ class Validation {
 };
 
 Status Validation::prepare() {
+    context_.report(phase, 0);
     WeldMap map = equal_vertices(mesh_.vertices);
     report_.merged_vertices = map.kept.size();
     triangles_ = renamed(mesh_.triangles, map);
@@ -223,18 +231,9 @@ void Validation::judge_facets() {
         else if (flat_on_lattice)
             ++snapped.count, snapped.faces.push_back(face);
     }
-    // Facets with the same vertices meet at the edge of the two lowest; the third tells them apart.
-    std::vector<std::pair<VertexIndex, FaceIndex>> at_edge;
-    for (EdgeIndex edge = 0; edge < edges_.size(); ++edge) {
-        at_edge.clear();
-        for (const SideIndex side : edges_.sides_of(edge)) {
-            const VertexIndex third = triangles_[side / 3][(side % 3 + 2) % 3];
-            if (third > edges_.ends[edge][1]) at_edge.push_back({third, side / 3});
-        }
-        std::sort(at_edge.begin(), at_edge.end());
-        for (std::size_t i = 1; i < at_edge.size(); ++i)
-            if (at_edge[i].first == at_edge[i - 1].first)
-                ++duplicate.count, duplicate.faces.push_back(at_edge[i].second);
+    for (const std::vector<FaceIndex>& group : groups_of_repeated_facets(triangles_, edges_)) {
+        duplicate.count += group.size() - 1;
+        duplicate.faces.insert(duplicate.faces.end(), group.begin() + 1, group.end());
     }
     if (!area) add(ProblemKind::empty, {1, {}});
     add(ProblemKind::zero_area_facets, std::move(flat));
@@ -272,11 +271,12 @@ Status Validation::judge_pairs() {
     // Vertices that only meet on the lattice are one there, or their facets would seem to touch.
     const WeldMap map = equal_vertices(points_);
     const bool met = map.kept.size() != points_.size();
+    const Context searching = part_of(context_, phase, 0.3, 1);
     std::vector<exact::Point> points;
     for (const VertexIndex vertex : map.kept) points.push_back(points_[vertex]);
     const Result<SelfIntersections> pairs =
-        met ? find_self_intersections(points, renamed(triangles_, map), context_)
-            : find_self_intersections(points_, triangles_, context_);
+        met ? find_self_intersections(points, renamed(triangles_, map), searching)
+            : find_self_intersections(points_, triangles_, searching);
     if (!pairs) return pairs.error();
     add_pairs(ProblemKind::self_intersections, pairs->crossing);
     add_pairs(ProblemKind::penetrations, pairs->penetrating);

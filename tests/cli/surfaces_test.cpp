@@ -120,6 +120,34 @@ TEST_F(Surfaces, InfoSaysWhatInertiaIsAboutAndWhatMeansNothing) {
     EXPECT_EQ(told, 3);
 }
 
+TEST_F(Surfaces, AnEmptySolidIsReadAsOne) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    write("points.csv", "0,0,0\n");
+    for (const std::string format : {"stl", "obj", "ply", "off", "3mf", "poly", "smesh"}) {
+        const std::string empty = "empty." + format;
+        ASSERT_EQ(octavo("difference cube.off cube.off -o " + empty).exit_code, 0) << format;
+        const Ran info = octavo("info --json " + empty);
+        ASSERT_EQ(info.exit_code, 0) << format << info.err;
+        EXPECT_EQ(info.json()["result"]["volume"], 0.0);
+        EXPECT_EQ(info.json()["result"]["solid_volume"], 0.0);
+        EXPECT_TRUE(info.json()["result"]["bounds"].is_null());
+        EXPECT_EQ(info.json()["warnings"], json::array({"the file has no facets: the solid is empty"}))
+            << format;
+    }
+    EXPECT_NE(octavo("info empty.off").out.find("bounds              none"), std::string::npos);
+    EXPECT_EQ(octavo("check empty.off").exit_code, 1);
+    EXPECT_EQ(octavo("union cube.off empty.off -o both.off --json").json()["result"]["volume"], 1.0);
+    EXPECT_EQ(octavo("contains empty.off points.csv").out, "side\n1\n");
+    EXPECT_EQ(octavo("octree empty.off --depth 3 --json").json()["result"]["black"], 0);
+    EXPECT_EQ(octavo("convert empty.off again.stl").exit_code, 0);
+    for (const char* arguments : {"render empty.off -o a.png", "hexmesh empty.off", "build empty.off",
+                                  "distance empty.off points.csv"}) {
+        const Ran ran = octavo(arguments);
+        EXPECT_EQ(ran.exit_code, 3) << arguments << ran.out;
+        EXPECT_NE(ran.err.find("error: "), std::string::npos) << arguments;
+    }
+}
+
 TEST_F(Surfaces, OneOfAThingIsNotSeveral) {
     ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
     ASSERT_EQ(octavo("octree cube.off --depth 2 -o cube.oct").exit_code, 0);

@@ -198,11 +198,33 @@ TEST(WriteMesh, RefusesCoordinatesThatAreNotFinite) {
     }
 }
 
-TEST(WriteMesh, WritesAnEmptySolidThatReadsBackAsOneWithoutFacets) {
-    for (const char* format : {"stl", "obj", "ply", "off", "3mf"}) {
-        const std::string text = write_text({}, format);
-        EXPECT_THAT(read_text(text, format).error().sentence, testing::HasSubstr("has no facets"));
+TEST(WriteMesh, WritesAnEmptySolidThatIsReadAgain) {
+    for (const char* format : {"stl", "obj", "ply", "off", "3mf", "poly", "smesh"}) {
+        const ReadMesh read = must_read(write_text({}, format), format);
+        EXPECT_TRUE(read.mesh.vertices.empty() && read.mesh.triangles.empty()) << format;
+        EXPECT_THAT(read.warnings, testing::ElementsAre("the file has no facets: the solid is empty"))
+            << format;
+        EXPECT_EQ(write_text(read.mesh, format), write_text({}, format));
     }
+    EXPECT_TRUE(must_read(write_text({}, "stl", Encoding::ascii), "stl").mesh.triangles.empty());
+    EXPECT_TRUE(must_read("solid empty\nendsolid empty\n", "stl").mesh.triangles.empty());
+    EXPECT_TRUE(read_polygons(bytes_of("OFF\n0 0 0\n"), {.format = "off"})->mesh.corners.empty());
+}
+
+TEST(ReadMesh, TakesNoFileOfVerticesAloneOrOfAnotherKindForAnEmptySolid) {
+    EXPECT_EQ(read_text("OFF\n1 0 0\n0 0 0\n", "off").error().sentence, "has no facets, only 1 vertex");
+    EXPECT_EQ(read_text("v 0 0 0\nv 1 0 0\n", "obj").error().sentence, "has no facets, only 2 vertices");
+    EXPECT_FALSE(read_text("<html>\n<body>not found</body>\n", "obj"));
+    EXPECT_FALSE(read_text("", "obj"));
+}
+
+TEST(ReadMesh, CountsOneAsOne) {
+    const std::string triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    EXPECT_THAT(must_read(triangle + "x", "off").warnings,
+                testing::ElementsAre("1 byte after the last announced face is ignored"));
+    EXPECT_THAT(must_read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\ncurv 0 1 1 2\n", "obj").warnings,
+                testing::UnorderedElementsAre("1 free-form curve or surface is left out",
+                                              "1 face of fewer than three corners is left out"));
 }
 
 }  // namespace

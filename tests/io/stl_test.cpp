@@ -88,7 +88,6 @@ TEST(StlText, MayStandOnOneLine) {
         EXPECT_TRUE(read.warnings.empty()) << text;
     }
     EXPECT_EQ(must_read(replaced(two_facets + second, "\n", " "), "stl").mesh.triangles.size(), 4u);
-    expect_refused("solid empty endsolid empty", "stl", 0, "has no facets");
     expect_refused(replaced(replaced(two_facets, "\n", " "), "vertex 1 1 0", "vertex 1 1"), "stl", 1,
                    "a coordinate, found \"vertex\"");
 }
@@ -111,7 +110,7 @@ TEST(StlText, NamesTheLineOfWhatIsWrong) {
     expect_refused(replaced(two_facets, "endloop", ""), "stl", 8, "endloop");
     expect_refused(two_facets.substr(0, two_facets.size() / 2), "stl", 9, "found ");
     expect_refused(two_facets + "rubbish", "stl", 17, "found \"rubbish\"");
-    expect_refused("solid empty\nendsolid empty\n", "stl", 0, "has no facets");
+    expect_refused("solid cut off\n", "stl", 2, "facet");
 }
 
 TEST(StlBinary, ReadsFacetsAndIgnoresNormalsAndAttributes) {
@@ -146,7 +145,8 @@ TEST(StlBinary, NeverTrustsTheCount) {
         EXPECT_THAT(read.error().sentence, testing::HasSubstr("the file ends after 2"));
         EXPECT_EQ(read.error().place.byte, 184u);
     }
-    EXPECT_THAT(read_text(binary("header", 0, {}), "stl").error().sentence, testing::HasSubstr("no facets"));
+    EXPECT_THAT(read_text(binary("header", 0, some_facets), "stl").error().sentence,
+                testing::HasSubstr("announces no facets"));
     EXPECT_THAT(read_text("short", "stl").error().sentence, testing::HasSubstr("ends within"));
 }
 

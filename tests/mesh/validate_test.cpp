@@ -343,5 +343,27 @@ TEST(Validate, StopsWhenCancelled) {
     EXPECT_EQ(report.error().code, ErrorCode::cancelled);
 }
 
+TEST(Validate, TellsHowFarItIsAndStopsWhereItIs) {
+    const Mesh ball = icosphere(1, 60);
+    std::vector<double> shares;
+    Context context;
+    context.on_progress = [&](std::string_view phase, double done) {
+        EXPECT_EQ(phase, "check");
+        shares.push_back(done);
+    };
+    ASSERT_TRUE(validate(ball, {}, context));
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    // Looking for self-intersections is most of the work.
+    EXPECT_GE(std::count_if(shares.begin(), shares.end(), [](double s) { return s > 0.3 && s < 1; }), 10);
+    for (const double from : {0.0, 0.1, 0.31, 0.7}) {
+        std::atomic<bool> cancel{false};
+        context.cancel = &cancel;
+        context.on_progress = [&](std::string_view, double done) { cancel = cancel || done >= from; };
+        const auto stopped = validate(ball, {}, context);
+        ASSERT_FALSE(stopped) << from;
+        EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
+    }
+}
+
 }  // namespace
 }  // namespace octavo::mesh
