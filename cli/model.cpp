@@ -299,6 +299,10 @@ Error in_its_file(Error error, const std::string& noun, const std::vector<std::s
                   const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const std::string prefix = noun + " " + std::to_string(i);
+        if (error.place.file == prefix) {
+            error.place.file = paths[i];
+            return error;
+        }
         for (const std::string& after : {prefix + ": ", prefix + " "}) {
             if (!error.sentence.starts_with(after)) continue;
             error.sentence.erase(0, after.size());

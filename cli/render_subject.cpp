@@ -5,6 +5,7 @@
 
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 
 namespace octavo::cli {
 namespace {
@@ -35,7 +36,7 @@ Result<Subject> surface_subject(Session& session, const Context& context, const 
         set_surface(subject, std::move(read->mesh), options);
         return subject;
     }
-    const Box3 removed = removed_box(options.cut, read->mesh.bounds());
+    const Box3 removed = removed_box(options.cut, mesh::bounds_of_facets(read->mesh));
     Result<mesh::Mesh> cut =
         session.timed("cut", [&] { return render::cut_open(read->mesh, removed, context); });
     if (!cut && cut.error().code != ErrorCode::not_a_solid)
@@ -48,7 +49,8 @@ Result<Subject> surface_subject(Session& session, const Context& context, const 
     const CutRange range = options.cut[0];
     if (options.cut.size() > 1 || range.to < 1) return std::move(*subject.uncut);
     subject.cut_axis = range.axis;
-    subject.cut_at = range.from > 0 ? removed.low[range.axis] : read->mesh.bounds().low[range.axis];
+    subject.cut_at =
+        range.from > 0 ? removed.low[range.axis] : mesh::bounds_of_facets(read->mesh).low[range.axis];
     set_surface(subject, std::move(read->mesh), options);
     return subject;
 }
@@ -79,7 +81,7 @@ Result<Subject> bsp_octree_subject(Session& session, const Context& context, con
     Subject subject;
     subject.bsp_octree = render::CutBspOctree{std::move(*tree), {}};
     if (!options.cut.empty()) {
-        const Box3 removed = removed_box(options.cut, surface->mesh.bounds());
+        const Box3 removed = removed_box(options.cut, mesh::bounds_of_facets(surface->mesh));
         Result<render::CutBspOctree> cut = session.timed(
             "cut", [&] { return render::cut_open(subject.bsp_octree->solid, removed, context); });
         if (!cut) return in_file(std::move(cut).error(), options.input);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -52,9 +53,27 @@ struct Ranges {
 
 constexpr std::size_t chunk_size = 1 << 15;
 
-/// The bounds of each operand. Errors: bad_input when a vertex is not finite.
+/// For each vertex of all operands, whether a facet uses it: others are no part of a solid, and may be anywhere.
+std::vector<std::uint8_t> find_used(std::span<const mesh::Mesh* const> operands, const Ranges& triangles,
+                                    const Ranges& vertices, const Context& context) {
+    std::vector<std::uint8_t> used(vertices.begin.back(), 0);
+    parallel_chunks(context, triangles.begin.back(), chunk_size, [&](std::size_t first, std::size_t last) {
+        triangles.for_each(first, last,
+                           [&](std::uint32_t operand, std::size_t from, std::size_t to, std::size_t offset) {
+                               const mesh::Mesh& mesh = *operands[operand];
+                               for (std::size_t i = from; i < to; ++i)
+                                   for (const mesh::VertexIndex corner : mesh.triangles[i - offset])
+                                       if (corner < mesh.vertices.size())
+                                           std::atomic_ref(used[vertices.begin[operand] + corner])
+                                               .store(1, std::memory_order_relaxed);
+                           });
+    });
+    return used;
+}
+
+/// The bounds of each operand's used vertices. Errors: bad_input when one is not finite.
 Result<std::vector<Box3>> bounds_of(std::span<const mesh::Mesh* const> operands, const Ranges& vertices,
-                                    const Context& context) {
+                                    const std::vector<std::uint8_t>& used, const Context& context) {
     struct Part {
         std::uint32_t operand;
         Box3 bounds;
@@ -67,6 +86,7 @@ Result<std::vector<Box3>> bounds_of(std::span<const mesh::Mesh* const> operands,
                           [&](std::uint32_t operand, std::size_t from, std::size_t to, std::size_t offset) {
                               Part part{operand, {}, true};
                               for (std::size_t i = from; i < to; ++i) {
+                                  if (!used[i]) continue;
                                   const Vec3& vertex = operands[operand]->vertices[i - offset];
                                   part.finite = part.finite && is_finite(vertex);
                                   part.bounds.add(vertex);
@@ -93,9 +113,11 @@ Result<exact::Lattice> joint_lattice(const std::vector<Box3>& bounds) {
     return exact::Lattice::fit(all);
 }
 
-/// The vertices of all operands on the lattice.
+/// The vertices of all operands on the lattice; unused ones all go to one place, where nothing comes of them.
 UninitialisedVector<exact::Point> snap_vertices(std::span<const mesh::Mesh* const> operands,
-                                                const Ranges& vertices, Soup& soup, const Context& context) {
+                                                const Ranges& vertices, const std::vector<std::uint8_t>& used,
+                                                Soup& soup, const Context& context) {
+    constexpr std::int32_t middle = exact::universe_side / 2;
     struct Moved {
         std::size_t count = 0;
         double farthest = 0;
@@ -107,6 +129,8 @@ UninitialisedVector<exact::Point> snap_vertices(std::span<const mesh::Mesh* cons
         vertices.for_each(first, last,
                           [&](std::uint32_t operand, std::size_t from, std::size_t to, std::size_t offset) {
                               for (std::size_t i = from; i < to; ++i) {
+                                  positions[i] = {middle, middle, middle};
+                                  if (!used[i]) continue;
                                   const Vec3& vertex = operands[operand]->vertices[i - offset];
                                   positions[i] = soup.lattice.snap(vertex);
                                   const Vec3 way = soup.lattice.to_world(positions[i]) - vertex;
@@ -217,14 +241,15 @@ Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands
         return Error{
             ErrorCode::limit, "the operands have more than 357 million facets or 1 billion vertices", {}};
     soup.first_triangle.push_back(static_cast<std::uint32_t>(triangles.begin.back()));
-    const Result<std::vector<Box3>> bounds = bounds_of(operands, vertices, context);
+    const std::vector<std::uint8_t> used = find_used(operands, triangles, vertices, context);
+    const Result<std::vector<Box3>> bounds = bounds_of(operands, vertices, used, context);
     if (!bounds) return bounds.error();
     if (context.cancelled()) return Context::cancelled_error();
     const Result<exact::Lattice> lattice = joint_lattice(*bounds);
     if (!lattice) return lattice.error();
     soup.lattice = *lattice;
     soup.transitions = TransitionTable(static_cast<std::uint32_t>(operands.size()));
-    Welded welded = weld(snap_vertices(operands, vertices, soup, context), context);
+    Welded welded = weld(snap_vertices(operands, vertices, used, soup, context), context);
     if (context.cancelled()) return Context::cancelled_error();
     soup.points = std::move(welded.points);
     const Status added = add_facets(operands, triangles, vertices, welded.point_of, soup, context);

@@ -9,6 +9,7 @@
 #include <octavo/classic/facet.hpp>
 #include <octavo/classic/octant_overlap.hpp>
 #include <octavo/mesh/snap.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 
 namespace octavo::bsp_octree {
 namespace {
@@ -96,8 +97,8 @@ Result<Built> build_from(const mesh::LatticeMesh& lattice_mesh, const Options& o
 }  // namespace
 
 Result<Built> build(const mesh::Mesh& mesh, const MeshOptions& options, const Context& context) {
-    if (mesh.vertices.empty()) return Built{BspOctree(exact::Lattice{}, options.octree), {}};
-    Result<exact::Lattice> lattice = exact::Lattice::fit(mesh.bounds());
+    if (mesh.triangles.empty()) return Built{BspOctree(exact::Lattice{}, options.octree), {}};
+    Result<exact::Lattice> lattice = exact::Lattice::fit(mesh::bounds_of_facets(mesh));
     if (!lattice) return lattice.error();
     return build(mesh, *lattice, options, context);
 }

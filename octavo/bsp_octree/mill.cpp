@@ -4,6 +4,7 @@
 
 #include <octavo/bsp_octree/mill.hpp>
 #include <octavo/mesh/transform.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 
 namespace octavo::bsp_octree {
 namespace {
@@ -22,8 +23,8 @@ double thread_seconds() {
 /// The finest lattice that holds the workpiece and the tool at every pose.
 Result<exact::Lattice> joint_lattice(const mesh::Mesh& work, const mesh::Mesh& tool,
                                      std::span<const Affine> poses) {
-    Box3 bounds = work.bounds();
-    const Box3 box = tool.bounds();
+    Box3 bounds = mesh::bounds_of_facets(work);
+    const Box3 box = mesh::bounds_of_facets(tool);
     if (!box.empty())
         for (const Affine& pose : poses)
             for (int corner = 0; corner < 8; ++corner)

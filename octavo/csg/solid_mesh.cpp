@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <octavo/csg/solid_mesh.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 #include <octavo/mesh/weld.hpp>
 
 namespace octavo::csg {
@@ -15,7 +16,7 @@ namespace {
 
 bool is_convex(const mesh::Mesh& mesh) {
     if (mesh.triangles.size() * mesh.vertices.size() > 4'000'000) return false;
-    const Vec3 extents = mesh.bounds().extents();
+    const Vec3 extents = mesh::bounds_of_facets(mesh).extents();
     const double tolerance = 0x1p-34 * std::max({extents.x, extents.y, extents.z});
     for (const mesh::Triangle& triangle : mesh.triangles) {
         const Vec3 a = mesh.vertices[triangle[0]];
@@ -89,6 +90,7 @@ double six_volumes(const mesh::Mesh& mesh) {
 }
 
 Polyhedron as_polyhedron(mesh::Mesh mesh) {
+    mesh = mesh::without_unused_vertices(std::move(mesh));
     const Convexity convexity = is_convex(mesh) ? Convexity::convex : Convexity::any;
     return {std::make_shared<const mesh::Mesh>(std::move(mesh)), convexity};
 }

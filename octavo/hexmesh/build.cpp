@@ -12,9 +12,10 @@
 #include <octavo/hexmesh/covered_sides.hpp>
 #include <octavo/hexmesh/half_filled.hpp>
 #include <octavo/hexmesh/number.hpp>
-#include <octavo/hexmesh/used_vertices.hpp>
 #include <octavo/mesh/measure.hpp>
+#include <octavo/mesh/self_overlap.hpp>
 #include <octavo/mesh/snap.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 
 namespace octavo::hexmesh {
 namespace {
@@ -26,10 +27,11 @@ struct Prepared {
     Box3 content;
     std::vector<SolidFacets> facets;
     std::vector<SolidReport> reports;
+    bool overlaps = false;  ///< a solid overlaps itself
 };
 
 Error of_solid(Error error, std::size_t solid, std::size_t count) {
-    if (count > 1) error.sentence = "solid " + std::to_string(solid) + ": " + error.sentence;
+    if (count > 1) error.place.file = "solid " + std::to_string(solid);
     return error;
 }
 
@@ -46,22 +48,46 @@ Error open_error(const mesh::LatticeMesh& mesh, const std::vector<classic::OpenE
     return error;
 }
 
+Error inside_out_error(std::vector<std::uint32_t> facets) {
+    Error error{
+        ErrorCode::not_a_solid,
+        "the surface is inside out: its volume is negative, since its facets run clockwise seen from outside",
+        {}};
+    error.place.faces = std::move(facets);
+    std::sort(error.place.faces.begin(), error.place.faces.end());
+    return error;
+}
+
+Error overlap_error(std::vector<std::uint32_t> facets, const SolidReport& solid) {
+    if (solid.exact_volume < 0) return inside_out_error(std::move(facets));
+    Error error{ErrorCode::not_a_solid,
+                "the surface overlaps itself, or a part of it is inside out: winding numbers other than 0 "
+                "and 1 occur; "
+                "a union of the solid resolves overlaps",
+                {}};
+    error.place.faces = std::move(facets);
+    std::sort(error.place.faces.begin(), error.place.faces.end());
+    return error;
+}
+
 /// Closes or refuses what is open, and refuses what encloses nothing.
-Result<SolidFacets> closed_facets(mesh::LatticeMesh mesh, classic::OpenPolicy policy, SolidReport& report) {
-    Result<std::vector<classic::Facet>> facets = classic::facets_of(mesh);
+Result<SolidFacets> closed_facets(const mesh::LatticeMesh& surface, classic::OpenPolicy policy,
+                                  SolidReport& report) {
+    Result<std::vector<classic::Facet>> facets = classic::facets_of(surface);
     if (!facets) return facets.error();
-    const std::vector<classic::OpenEdge> open = classic::open_edges(mesh);
+    const std::vector<classic::OpenEdge> open = classic::open_edges(surface);
+    std::optional<mesh::LatticeMesh> closed;
     if (!open.empty()) {
-        if (policy == classic::OpenPolicy::reject) return open_error(mesh, open);
+        if (policy == classic::OpenPolicy::reject) return open_error(surface, open);
         report.open_facets = classic::open_surface_error(open).place.faces;
-        const std::size_t given = mesh.triangles.size();
-        mesh = classic::close_holes(mesh, open);
-        facets = classic::facets_of(mesh);
+        closed = classic::close_holes(surface, open);
+        facets = classic::facets_of(*closed);
         if (!facets) return facets.error();
         // What closes a hole goes by the facet at its first open edge: the caller's mesh has no other.
         for (classic::Facet& facet : *facets)
-            if (facet.source >= given) facet.source = report.open_facets.front();
+            if (facet.source >= surface.triangles.size()) facet.source = report.open_facets.front();
     }
+    const mesh::LatticeMesh& mesh = closed ? *closed : surface;
     if (mesh::exact_volume6(mesh) == 0 && !mesh.triangles.empty()) {
         Error error{ErrorCode::not_a_solid,
                     "the surface encloses nothing: its facets cancel each other, or are flat",
@@ -74,22 +100,28 @@ Result<SolidFacets> closed_facets(mesh::LatticeMesh mesh, classic::OpenPolicy po
     return SolidFacets{std::move(*facets)};
 }
 
-Result<Prepared> prepare(std::span<const mesh::Mesh> solids, const Options& options) {
+/// Overlaps thinner than a cell leave no trace in the winding numbers of corners, so the surface is searched. Holes are not
+/// closed for that: where fans that close them cross it is a guess anyway.
+Result<Prepared> prepare(std::span<const mesh::Mesh> solids, const Options& options, const Context& context) {
     Prepared prepared;
-    prepared.content = bounds_of_facets(solids);
+    prepared.content = mesh::bounds_of_facets(solids);
     if (prepared.content.empty())
         return Error{ErrorCode::bad_input, "there is nothing to mesh: the solids have no facets", {}};
     const Result<exact::Lattice> lattice = grid_lattice(prepared.content);
     if (!lattice) return lattice.error();
     prepared.lattice = *lattice;
     for (std::size_t i = 0; i < solids.size(); ++i) {
-        const std::optional<mesh::Mesh> moved = with_unused_vertices_moved(solids[i]);
-        Result<mesh::Snapped> snapped = mesh::snap(moved ? *moved : solids[i], *lattice);
+        Result<mesh::Snapped> snapped = mesh::snap(solids[i], *lattice);
         if (!snapped) return of_solid(snapped.error(), i, solids.size());
         SolidReport& report = prepared.reports.emplace_back();
         report.largest_displacement = snapped->report.largest_displacement;
-        Result<SolidFacets> facets = closed_facets(std::move(snapped->mesh), options.open, report);
+        Result<SolidFacets> facets = closed_facets(snapped->mesh, options.open, report);
         if (!facets) return of_solid(facets.error(), i, solids.size());
+        Result<std::vector<mesh::FaceIndex>> overlap = mesh::find_self_overlap(snapped->mesh, context);
+        if (!overlap) return of_solid(overlap.error(), i, solids.size());
+        if (!overlap->empty() && options.overlaps == OverlapPolicy::reject)
+            return of_solid(overlap_error(std::move(*overlap), report), i, solids.size());
+        prepared.overlaps = prepared.overlaps || !overlap->empty();
         prepared.facets.push_back(std::move(*facets));
     }
     return prepared;
@@ -182,29 +214,6 @@ Result<ClassifiedCells> balanced_cells(const Prepared& prepared, const Options& 
     return inherit(std::move(*refined), std::move(keys));
 }
 
-Error inside_out_error(std::vector<std::uint32_t> facets) {
-    Error error{
-        ErrorCode::not_a_solid,
-        "the surface is inside out: its volume is negative, since its facets run clockwise seen from outside",
-        {}};
-    error.place.faces = std::move(facets);
-    std::sort(error.place.faces.begin(), error.place.faces.end());
-    return error;
-}
-
-Error overlap_error(const ClassifiedCells& cells, std::span<const SolidReport> solids) {
-    if (solids[cells.overlapping_solid].exact_volume < 0)
-        return of_solid(inside_out_error(cells.overlap), cells.overlapping_solid, solids.size());
-    Error error{ErrorCode::not_a_solid,
-                "the surface overlaps itself, or a part of it is inside out: winding numbers other than 0 "
-                "and 1 occur; "
-                "a union of the solid resolves overlaps",
-                {}};
-    error.place.faces = cells.overlap;
-    std::sort(error.place.faces.begin(), error.place.faces.end());
-    return of_solid(std::move(error), cells.overlapping_solid, solids.size());
-}
-
 /// Adds with the rounding errors kept (A. Neumaier, 1974).
 class CompensatedSum {
   public:
@@ -219,19 +228,26 @@ class CompensatedSum {
     double sum_ = 0, lost_ = 0;
 };
 
-double volume_of(const exact::Lattice& lattice, CellKey cell) {
-    const double side = std::ldexp(lattice.unit(), exact::coordinate_bits - cell.level());
-    return side * side * side;
+using PerLevel = std::array<double, octree::max_level + 1>;
+
+/// The sides of cells of each level, in world units.
+PerLevel sides_of_levels(const exact::Lattice& lattice) {
+    PerLevel sides{};
+    for (int level = 0; level <= octree::max_level; ++level)
+        sides[static_cast<std::size_t>(level)] = std::ldexp(lattice.unit(), exact::coordinate_bits - level);
+    return sides;
 }
 
 /// Counts and measures the solids, in all cells.
 void measure_solids(const exact::Lattice& lattice, const ClassifiedCells& cells,
                     std::vector<SolidReport>& solids) {
     std::vector<CompensatedSum> filled(solids.size());
+    PerLevel volumes = sides_of_levels(lattice);
+    for (double& volume : volumes) volume = volume * volume * volume;
     std::size_t fraction = 0;
     for (std::size_t cell = 0; cell < cells.keys.size(); ++cell) {
         const mesh::SolidSet& set = cells.sets[cells.set_of_cell[cell]];
-        const double volume = volume_of(lattice, cells.keys[cell]);
+        const double volume = volumes[static_cast<std::size_t>(cells.keys[cell].level())];
         for (const mesh::SolidIndex solid : set.inside) {
             ++solids[solid].inside_cells;
             solids[solid].inside_volume += volume;
@@ -263,14 +279,16 @@ std::vector<std::size_t> missed_boxes(std::span<const BoxSize> boxes, const Box3
 /// Counts the cells of the mesh.
 void count_cells(const mesh::HexMesh& mesh, Report& report) {
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
-        const int level = mesh.cells[cell].level();
-        const double side = std::ldexp(mesh.lattice.unit(), exact::coordinate_bits - level);
         const mesh::SolidSet& set = mesh.set_of(static_cast<mesh::CellIndex>(cell));
-        ++report.cells_of_level[static_cast<std::size_t>(level)];
+        ++report.cells_of_level[static_cast<std::size_t>(mesh.cells[cell].level())];
         report.boundary_cells += !set.boundary.empty();
         report.inside_cells += set.boundary.empty() && !set.inside.empty();
-        report.smallest_cell = cell == 0 ? side : std::min(report.smallest_cell, side);
-        report.largest_cell = std::max(report.largest_cell, side);
+    }
+    const PerLevel sides = sides_of_levels(mesh.lattice);
+    for (std::size_t level = 0; level < sides.size(); ++level) {
+        if (report.cells_of_level[level] == 0) continue;
+        if (report.largest_cell == 0) report.largest_cell = sides[level];
+        report.smallest_cell = sides[level];
     }
 }
 
@@ -352,17 +370,18 @@ Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options, 
     if (is_by_half(options.keep) && options.fractions == Fractions::skip)
         return Error{
             ErrorCode::bad_input, "to keep cells that are half filled, fractions must be computed", {}};
-    Result<Prepared> prepared = prepare(solids, options);
+    Result<Prepared> prepared = prepare(solids, options, context);
     if (!prepared) return prepared.error();
     Result<ClassifiedCells> cells = balanced_cells(*prepared, options, context);
     if (!cells) return cells.error();
-    const bool overlaps = !cells->overlap.empty();
-    if (overlaps && options.overlaps == OverlapPolicy::reject)
-        return overlap_error(*cells, prepared->reports);
+    if (!cells->overlap.empty() && options.overlaps == OverlapPolicy::reject) {
+        const mesh::SolidIndex solid = cells->overlapping_solid;
+        return of_solid(overlap_error(cells->overlap, prepared->reports[solid]), solid, solids.size());
+    }
     if (context.cancelled()) return Context::cancelled_error();
 
     Built built;
-    built.report.overlaps = overlaps;
+    built.report.overlaps = prepared->overlaps || !cells->overlap.empty();
     if (options.keep != Keep::all) built.report.missed_boxes = missed_boxes(options.boxes, prepared->content);
     cells = decided_cells(*prepared, std::move(*cells), options, built.report, context);
     if (!cells) return cells.error();

@@ -51,7 +51,7 @@ class SetTable {
     SetTable& operator=(SetTable&&) = default;
 
     std::uint32_t number_of(const Signature& signature) {
-        if (!all_.empty() && signature == *last_) return last_number_;
+        if (!all_.empty() && is_last(signature)) return last_number_;
         const auto [at, fresh] = numbers_.try_emplace(signature, static_cast<std::uint32_t>(all_.size()));
         if (fresh) all_.push_back(&at->first);
         last_ = &at->first;
@@ -62,6 +62,14 @@ class SetTable {
     const Signature& operator[](std::size_t number) const { return *all_[number]; }
 
   private:
+    /// Nearly always there is one solid, for which the call that compares vectors is most of the work.
+    bool is_last(const Signature& signature) const {
+        if (signature.size() != last_->size()) return false;
+        for (std::size_t i = 0; i < signature.size(); ++i)
+            if (signature[i] != (*last_)[i]) return false;
+        return true;
+    }
+
     std::map<Signature, std::uint32_t> numbers_;  // its keys stay where they are
     std::vector<const Signature*> all_;
     const Signature* last_ = nullptr;
@@ -189,9 +197,7 @@ class SolidsProblem {
 
   private:
     /// Octants of this level get their facets' lists only when something will look at them.
-    bool needs_lists(int level) const {
-        return level < depth_ || computes_fractions() || options_.overlaps == OverlapPolicy::reject;
-    }
+    bool needs_lists(int level) const { return level < depth_ || computes_fractions(); }
 
     /// What each solid's facets say about the octants, to `workspace.octants`.
     void find_octants(const Cell& cell, const SolidsInCell& in, Workspace& workspace) const {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -12,7 +11,7 @@
 #include <octavo/hexmesh/cubic_grid.hpp>
 #include <octavo/hexmesh/quality.hpp>
 #include <octavo/hexmesh/size_field.hpp>
-#include <octavo/hexmesh/used_vertices.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 #include <octavo/query/inside.hpp>
 
 namespace octavo::hexmesh {
@@ -212,9 +211,7 @@ Result<std::vector<std::vector<mesh::SolidIndex>>> solids_at(std::span<const mes
     for (mesh::SolidIndex solid = 0; solid < solids.size(); ++solid) {
         query::InsideOptions asking;
         asking.open = options.open;
-        const std::optional<mesh::Mesh> moved = with_unused_vertices_moved(solids[solid]);
-        const Result<query::InsideQuery> inside =
-            query::InsideQuery::build(moved ? *moved : solids[solid], asking, context);
+        const Result<query::InsideQuery> inside = query::InsideQuery::build(solids[solid], asking, context);
         if (!inside) return inside.error();
         const std::vector<query::Side> sides = (*inside)(centres, context);
         if (context.cancelled()) return Context::cancelled_error();
@@ -286,7 +283,7 @@ Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options
     sizing.keep = Keep::touched;
     sizing.fractions = Fractions::skip;
     sizing.balance = octree::Contact::face;
-    const Box3 content = bounds_of_facets(solids);
+    const Box3 content = mesh::bounds_of_facets(solids);
     if (content.empty()) return build(solids, sizing, context);  // which says what is wrong
     const Result<exact::Lattice> lattice = grid_lattice(content);
     if (!lattice) return lattice.error();

@@ -8,6 +8,7 @@
 #include <octavo/hexmesh/buffer_layer.hpp>
 #include <octavo/hexmesh/fit.hpp>
 #include <octavo/hexmesh/separating_surface.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 
 namespace octavo::hexmesh {
 namespace {
@@ -239,9 +240,7 @@ Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, c
                      {}};
     const Result<SeparatingSurfaces> surfaces = SeparatingSurfaces::build(solids, mesh, context);
     if (!surfaces) return surfaces.error();
-    Box3 bounds;
-    for (const mesh::Mesh& solid : solids) bounds.add(solid.bounds());
-    const Vec3 extents = bounds.extents();
+    const Vec3 extents = mesh::bounds_of_facets(solids).extents();
     const double small = 1e-6 * std::max({extents.x, extents.y, extents.z});
 
     context.report("fit", 0);

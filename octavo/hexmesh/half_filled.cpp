@@ -153,6 +153,18 @@ class ManifoldBoundary {
     const std::array<bool, 256> plain_ = make_plain_corners();
 };
 
+/// Parts of cells, as far as they decide anything, in steps. Sums over facets are rounded, and a cell that is exactly half
+/// filled would be in or out by how its surface happens to be cut into triangles. A step is 16 times the error where a facet
+/// is 2^21 times as large as the cell, 2^-32 (cell_volume.hpp), and no more than half a unit of the lattice, which is what
+/// rounding moves a vertex by, makes of any cell: the largest is 2^26 units wide.
+std::vector<double> in_steps(const std::vector<double>& parts) {
+    constexpr double step = 0x1p-28;
+    std::vector<double> result;
+    result.reserve(parts.size());
+    for (const double part : parts) result.push_back(step * std::nearbyint(part / step));
+    return result;
+}
+
 /// The solids that a kept cell goes to. `fractions` are those of `set.boundary`.
 mesh::SolidSet decided(const mesh::SolidSet& set, std::span<const double> fractions) {
     mesh::SolidSet result;
@@ -165,8 +177,10 @@ mesh::SolidSet decided(const mesh::SolidSet& set, std::span<const double> fracti
     return result;
 }
 
-/// Gives each cell the set of the solids that it goes to, none when it is not kept. False when there are too many sets.
-bool assign_sets(ClassifiedCells& cells, const std::vector<std::uint8_t>& kept) {
+/// Gives each cell the set of the solids that it goes to by `parts`, none when it is not kept. False when there are too many
+/// sets.
+bool assign_sets(ClassifiedCells& cells, const std::vector<double>& parts,
+                 const std::vector<std::uint8_t>& kept) {
     std::map<std::pair<std::vector<mesh::SolidIndex>, std::vector<mesh::SolidIndex>>, std::uint16_t> numbers;
     std::vector<mesh::SolidSet> sets{mesh::SolidSet{}};
     numbers.emplace(std::pair(sets[0].inside, sets[0].boundary), std::uint16_t{0});
@@ -175,17 +189,17 @@ bool assign_sets(ClassifiedCells& cells, const std::vector<std::uint8_t>& kept) 
     for (std::size_t cell = 0; cell < kept.size(); ++cell) {
         std::uint16_t& number = cells.set_of_cell[cell];
         const mesh::SolidSet& set = cells.sets[number];
-        const std::span<const double> fractions(cells.fractions.data() + next, set.boundary.size());
-        next += set.boundary.size();
-        mesh::SolidSet changed = kept[cell] ? decided(set, fractions) : mesh::SolidSet{};
+        mesh::SolidSet changed =
+            kept[cell] ? decided(set, std::span(parts).subspan(next, set.boundary.size())) : mesh::SolidSet{};
         for (std::size_t i = 0; i < set.boundary.size(); ++i)
             if (std::find(changed.boundary.begin(), changed.boundary.end(), set.boundary[i]) !=
                 changed.boundary.end())
-                kept_fractions.push_back(fractions[i]);
+                kept_fractions.push_back(cells.fractions[next + i]);
+        next += set.boundary.size();
         const auto [at, fresh] = numbers.try_emplace(std::pair(changed.inside, changed.boundary),
                                                      static_cast<std::uint16_t>(sets.size()));
         if (fresh) sets.push_back(std::move(changed));
-        if (sets.size() > 0x10000) return false;
+        if (sets.size() > most_sets) return false;
         number = at->second;
     }
     cells.sets = std::move(sets);
@@ -196,7 +210,8 @@ bool assign_sets(ClassifiedCells& cells, const std::vector<std::uint8_t>& kept) 
 }  // namespace
 
 Result<HalfFilled> decide_by_half(ClassifiedCells& cells, Keep keep) {
-    const std::vector<double> filled = mesh::filled_parts(cells.sets, cells.set_of_cell, cells.fractions);
+    const std::vector<double> parts = in_steps(cells.fractions);
+    const std::vector<double> filled = mesh::filled_parts(cells.sets, cells.set_of_cell, parts);
     std::vector<std::uint8_t> kept(cells.keys.size());
     for (std::size_t i = 0; i < filled.size(); ++i) kept[i] = filled[i] >= 0.5;
     HalfFilled changes;
@@ -208,8 +223,7 @@ Result<HalfFilled> decide_by_half(ClassifiedCells& cells, Keep keep) {
             changes.left_out += before[i] && !kept[i];
         }
     }
-    if (!assign_sets(cells, kept))
-        return Error{ErrorCode::limit, "the solids overlap in more than 65536 different ways", {}};
+    if (!assign_sets(cells, parts, kept)) return too_many_sets();
     return changes;
 }
 

@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <octavo/hexmesh/size_field.hpp>
@@ -44,13 +46,41 @@ Vec3 normal_direction(const classic::Facet& facet) {
     return (1 / length(v)) * v;
 }
 
+/// Whether two of the directions have a smaller cosine, that is, a wider angle between them; in whatever order they come.
+///
+/// Two directions are no wider apart than their angles to a third, here to the mean of all, say together. So only those few
+/// are compared that lean away from it far enough, and none where the surface is flat for its size.
+bool are_some_wider_apart(std::span<const Vec3> directions, double cosine) {
+    constexpr double rounding = 1e-9;  // of the angles, which only choose what is compared
+    const double widest = std::acos(cosine) - rounding;
+    Vec3 sum;
+    for (const Vec3& direction : directions) sum = sum + direction;
+    if (length(sum) == 0) sum = directions[0];
+    const Vec3 mean = (1 / length(sum)) * sum;
+    std::vector<std::pair<double, std::size_t>> leaning;
+    double most = 0;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const double angle = std::acos(std::clamp(dot(mean, directions[i]), -1.0, 1.0));
+        leaning.push_back({angle, i});
+        most = std::max(most, angle);
+    }
+    std::erase_if(leaning, [&](const auto& entry) { return entry.first + most < widest; });
+    std::sort(leaning.begin(), leaning.end(), std::greater<>());
+    for (std::size_t i = 0; i < leaning.size(); ++i)
+        for (std::size_t k = 0; k < i && leaning[k].first + leaning[i].first >= widest; ++k)
+            if (dot(directions[leaning[k].second], directions[leaning[i].second]) < cosine) return true;
+    return false;
+}
+
 }  // namespace
 
 Result<exact::Lattice> grid_lattice(const Box3& content) {
     Result<exact::Lattice> fitted = exact::Lattice::fit(content);
     if (!fitted) return fitted;
     constexpr int aligned_bits = exact::coordinate_bits - 2;
-    for (int exponent = fitted->exponent();; ++exponent) {
+    // With units four times as large the content spans a quarter of the universe, and alignment moves it by less than
+    // another; its origin is within half of the range of origins.
+    for (int exponent = fitted->exponent(); exponent <= fitted->exponent() + 2; ++exponent) {
         std::array<std::int64_t, 3> origin{};
         bool fits = true;
         for (int axis = 0; axis < 3; ++axis) {
@@ -58,11 +88,17 @@ Result<exact::Lattice> grid_lattice(const Box3& content) {
             const double low = std::floor(std::ldexp(content.low[axis], -exponent)) - 1;
             const double high = std::ceil(std::ldexp(content.high[axis], -exponent)) + 1;
             const double corner = std::ldexp(std::floor(std::ldexp(low, -aligned_bits)), aligned_bits);
-            fits = fits && high - corner < exact::universe_side;
-            origin[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(corner);
+            fits = fits && high - corner < exact::universe_side && std::fabs(corner) <= 0x1p53;
+            if (fits) origin[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(corner);
         }
-        if (fits) return exact::Lattice::from_parts(exponent, origin);
+        if (!fits) continue;
+        // Beside the last origin that there is, only larger units are left.
+        Result<exact::Lattice> lattice = exact::Lattice::from_parts(exponent, origin);
+        if (lattice) return lattice;
     }
+    return Error{ErrorCode::limit,
+                 "the content is too large for a lattice whose cells lie at multiples of their side",
+                 {}};
 }
 
 Result<SizeField> SizeField::from(const Options& options, std::size_t solids, const Box3& content,
@@ -133,20 +169,17 @@ bool SizeField::is_too_coarse_for(int level, std::span<const classic::Facet> fac
                                   std::span<const std::uint32_t> list) const {
     const bool bends = level < curvature_level_, faces = level < proximity_level_;
     if (list.size() < 2 || !(bends || faces)) return false;
-    // The facet that differs most from the first, and how much others differ from that: within a factor of two
-    // of the widest angle, in linear time.
-    const auto least = [&](const Vec3& from) {
-        std::size_t furthest = 0;
-        double cosine = 1;
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            const double next = dot(from, normal_direction(facets[list[i]]));
-            if (next < cosine) cosine = next, furthest = i;
-        }
-        return std::pair(cosine, furthest);
-    };
-    const auto [first_cosine, furthest] = least(normal_direction(facets[list[0]]));
-    const double cosine = std::min(first_cosine, least(normal_direction(facets[list[furthest]])).first);
-    return (bends && cosine < least_cosine_) || (faces && cosine < opposite_cosine);
+    std::vector<Vec3> directions;
+    directions.reserve(list.size());
+    for (const std::uint32_t facet : list) directions.push_back(normal_direction(facets[facet]));
+    std::sort(directions.begin(), directions.end(),
+              [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+    directions.erase(std::unique(directions.begin(), directions.end()), directions.end());
+    // What bends far enough for either asks no more.
+    const double cosine = bends && faces ? std::max(least_cosine_, opposite_cosine)
+                          : bends        ? least_cosine_
+                                         : opposite_cosine;
+    return are_some_wider_apart(directions, cosine);
 }
 
 }  // namespace octavo::hexmesh

@@ -6,7 +6,9 @@
 #include <octavo/io/face_directions.hpp>
 #include <octavo/mesh/repair_steps.hpp>
 #include <octavo/mesh/shells.hpp>
+#include <octavo/mesh/snap.hpp>
 #include <octavo/mesh/triangulate.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 #include <octavo/mesh/weld.hpp>
 
 namespace octavo::io {
@@ -37,12 +39,14 @@ std::optional<mesh::RepairSoup> soup_of(std::span<const Vec3> vertices, const Fa
             soup.origin.push_back(static_cast<FaceIndex>(face));
         }
     }
-    Box3 bounds = mesh.bounds();
+    Box3 bounds = mesh::bounds_of_facets(mesh);
     for (const Vec3& point : hole_points) bounds.add(point);
     const Result<exact::Lattice> lattice = exact::Lattice::fit(bounds);
     if (!lattice) return {};
     mesh = mesh::weld(mesh);
-    for (const Vec3& vertex : mesh.vertices) soup.points.push_back(lattice->snap(vertex));
+    Result<mesh::Snapped> snapped = mesh::snap(mesh, *lattice);
+    if (!snapped) return {};
+    soup.points = std::move(snapped->mesh.points);
     for (const Vec3& point : hole_points) soup.points.push_back(lattice->snap(point));
     soup.vertices = std::move(mesh.vertices);
     soup.triangles = std::move(mesh.triangles);

@@ -213,16 +213,18 @@ struct Rounding {
 
 Result<Rounding> rounding_to_floats(const mesh::Mesh& mesh) {
     Rounding rounding;
-    for (const Vec3& vertex : mesh.vertices)
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto rounded = static_cast<float>(vertex[axis]);
-            if (!std::isfinite(rounded))
-                return Error{
-                    ErrorCode::limit,
-                    "the coordinate " + number_text(vertex[axis]) + " does not fit the floats of binary STL",
-                    {}};
-            rounding.largest = std::max(rounding.largest, std::abs(double{rounded} - vertex[axis]));
-        }
+    for (const mesh::Triangle& triangle : mesh.triangles)
+        for (const mesh::VertexIndex corner : triangle)
+            for (int axis = 0; axis < 3; ++axis) {
+                const double exact = mesh.vertices[corner][axis];
+                const auto rounded = static_cast<float>(exact);
+                if (!std::isfinite(rounded))
+                    return Error{
+                        ErrorCode::limit,
+                        "the coordinate " + number_text(exact) + " does not fit the floats of binary STL",
+                        {}};
+                rounding.largest = std::max(rounding.largest, std::abs(double{rounded} - exact));
+            }
     if (rounding.largest == 0) return rounding;
     const auto as_floats = [&](mesh::VertexIndex vertex) {
         const Vec3& p = mesh.vertices[vertex];

@@ -18,11 +18,11 @@ struct Snapped {
     SnapReport report;
 };
 
-/// Snaps each vertex to `lattice`, whose universe must contain the mesh. Vertices keep their indices, even
-/// when two of them meet in one point. Errors: bad_input when a vertex is not finite or lies outside.
+/// Snaps each vertex to `lattice`; those that no facet uses may be anywhere, and go where a used one is. Vertices keep their
+/// indices, even when two meet in one point. Errors: bad_input when a used one is not finite or lies outside the universe.
 Result<Snapped> snap(const Mesh& mesh, const exact::Lattice& lattice);
 
-/// Snaps to the finest lattice that contains the mesh.
+/// Snaps to the finest lattice that contains the facets.
 Result<Snapped> snap(const Mesh& mesh);
 
 }  // namespace octavo::mesh

@@ -143,7 +143,8 @@ std::vector<SideIndex> fan_of_corner(const EdgeTable& edges, std::span<const Tri
 std::vector<bool> used_vertices(std::span<const Triangle> triangles, std::size_t vertex_count) {
     std::vector<bool> used(vertex_count);
     for (const Triangle& t : triangles)
-        for (const VertexIndex vertex : t) used[vertex] = true;
+        for (const VertexIndex vertex : t)
+            if (vertex < vertex_count) used[vertex] = true;
     return used;
 }
 

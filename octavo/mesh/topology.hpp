@@ -71,7 +71,7 @@ Components components_by_edge(const EdgeTable& edges, std::size_t face_count);
 /// more.
 std::vector<SideIndex> fan_of_corner(const EdgeTable& edges, std::span<const Triangle> triangles);
 
-/// For each vertex, whether a facet uses it.
+/// For each vertex, whether a facet uses it; corners out of range are passed over.
 std::vector<bool> used_vertices(std::span<const Triangle> triangles, std::size_t vertex_count);
 
 }  // namespace octavo::mesh

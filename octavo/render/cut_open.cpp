@@ -6,6 +6,7 @@
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/bsp_octree/build.hpp>
 #include <octavo/mesh/shapes.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 #include <octavo/render/cut_open.hpp>
 
 namespace octavo::render {
@@ -25,7 +26,7 @@ std::optional<mesh::Mesh> box_within(const Box3& removed, const Box3& universe) 
 }  // namespace
 
 Result<mesh::Mesh> cut_open(const mesh::Mesh& solid, const Box3& removed, const Context& context) {
-    Box3 universe = solid.bounds();
+    Box3 universe = mesh::bounds_of_facets(solid);
     const Vec3 extents = universe.extents();
     const double margin = 0.1 * std::max({extents.x, extents.y, extents.z});
     for (int axis = 0; axis < 3; ++axis) universe.low[axis] -= margin, universe.high[axis] += margin;

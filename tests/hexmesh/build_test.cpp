@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <string>
 
@@ -19,30 +18,13 @@
 #include <octavo/mesh/shapes.hpp>
 
 #include "effort.hpp"
+#include "hexmesh/solids.hpp"
 #include "models.hpp"
 
 namespace octavo::hexmesh {
 namespace {
 
 using mesh::Mesh;
-
-Mesh moved(Mesh mesh, Vec3 by) {
-    for (Vec3& vertex : mesh.vertices) vertex = vertex + by;
-    return mesh;
-}
-
-Mesh reversed(Mesh mesh) {
-    for (mesh::Triangle& t : mesh.triangles) std::swap(t[0], t[1]);
-    return mesh;
-}
-
-Mesh joined(Mesh a, const Mesh& b) {
-    const auto offset = static_cast<mesh::VertexIndex>(a.vertices.size());
-    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-    for (const mesh::Triangle& t : b.triangles)
-        a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-    return a;
-}
 
 /// Everything a mesh of hexahedra promises about itself.
 void expect_consistent(const Built& built) {
@@ -59,11 +41,6 @@ void expect_consistent(const Built& built) {
     for (const double fraction : mesh.fractions)
         ASSERT_TRUE(fraction > -1e-9 && fraction < 1 + 1e-9) << fraction;
     EXPECT_EQ(std::set<exact::Point>(mesh.nodes.begin(), mesh.nodes.end()).size(), mesh.nodes.size());
-}
-
-void expect_exact_volumes(const Built& built) {
-    for (const SolidReport& solid : built.report.solids)
-        EXPECT_NEAR(solid.filled_volume / solid.exact_volume, 1, 1e-9);
 }
 
 TEST(Build, RefusesMoreCellsThanAllowed) {
@@ -279,106 +256,6 @@ TEST(Build, GivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(one->mesh.fractions, two->mesh.fractions);
     EXPECT_EQ(one->mesh.edge_hanging, two->mesh.edge_hanging);
     EXPECT_EQ(one->mesh.face_hanging, two->mesh.face_hanging);
-}
-
-TEST(Build, RefusesWhatIsNoSolidAndNamesFacets) {
-    Mesh open = mesh::icosphere(1, 3);
-    open.triangles.erase(open.triangles.begin() + 7);
-    const Result<Built> leaking = build(std::span(&open, 1));
-    ASSERT_FALSE(leaking);
-    EXPECT_EQ(leaking.error().code, ErrorCode::not_a_solid);
-    EXPECT_FALSE(leaking.error().place.faces.empty());
-    const Result<Built> closed =
-        build(std::span(&open, 1), {.level = 4, .open = classic::OpenPolicy::winding});
-    ASSERT_TRUE(closed) << closed.error().describe();
-    EXPECT_FALSE(closed->report.solids[0].open_facets.empty());
-    expect_exact_volumes(*closed);
-
-    const Mesh inside_out = reversed(mesh::icosphere(1, 3));
-    const Mesh doubled = joined(mesh::icosphere(1, 3), moved(mesh::icosphere(1, 3), {0.9, 0, 0}));
-    for (const Mesh& mesh : {inside_out, doubled}) {
-        const Result<Built> refused = build(std::span(&mesh, 1), {.level = 4});
-        ASSERT_FALSE(refused);
-        EXPECT_EQ(refused.error().code, ErrorCode::not_a_solid);
-        EXPECT_FALSE(refused.error().place.faces.empty());
-    }
-    const Result<Built> accepted =
-        build(std::span(&doubled, 1), {.level = 4, .overlaps = OverlapPolicy::winding});
-    ASSERT_TRUE(accepted);
-    EXPECT_TRUE(accepted->report.overlaps);
-    // Cells inside count once, the exact volume counts twice what is covered twice.
-    const SolidReport& solid = accepted->report.solids[0];
-    const double one = 4 * std::numbers::pi / 3, lens = std::numbers::pi * (4 + 0.9) * 1.1 * 1.1 / 12;
-    EXPECT_LT(solid.filled_volume, solid.exact_volume);
-    EXPECT_GT(solid.filled_volume, 0.8 * (2 * one - lens));
-}
-
-TEST(Build, NamesOnlyFacetsOfTheMeshWhereClosingAHoleMakesItOverlap) {
-    Mesh box{{{0, 0, 0},
-              {10, 0, 0},
-              {0, 10, 0},
-              {10, 10, 0},
-              {-8, 7.5, 1.6},
-              {9.9, 6, 3.4},
-              {4.2, 18, 12.3},
-              {15, 3, 8.8}},
-             {},
-             {}};
-    for (const auto& [a, b, c, d] : {std::array{0u, 2u, 3u, 1u},
-                                     {0u, 1u, 5u, 4u},
-                                     {2u, 6u, 7u, 3u},
-                                     {0u, 4u, 6u, 2u},
-                                     {1u, 3u, 7u, 5u}}) {
-        box.triangles.push_back({a, b, c});
-        box.triangles.push_back({a, c, d});
-    }
-    const Result<Built> refused =
-        build(std::span(&box, 1), {.level = 5, .open = classic::OpenPolicy::winding});
-    ASSERT_FALSE(refused);
-    EXPECT_FALSE(refused.error().place.faces.empty());
-    for (const std::uint32_t face : refused.error().place.faces) EXPECT_LT(face, box.triangles.size());
-}
-
-TEST(Build, SeesOverlapsWhoseWallsLieOnTheGrid) {
-    const Mesh doubled = joined(mesh::box({0, 0, 0}, {2, 2, 2}), mesh::box({1, 0, 0}, {3, 2, 2}));
-    const Result<Built> refused = build(std::span(&doubled, 1), {.precision = 1});
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::not_a_solid);
-    EXPECT_FALSE(refused.error().place.faces.empty());
-}
-
-TEST(Build, SaysWhereAHoleIsAndRefusesWhatEnclosesNothing) {
-    Mesh open = mesh::box({0, 0, 0}, {1, 2, 3});
-    open.triangles.pop_back();
-    const Result<Built> leaking = build(std::span(&open, 1));
-    ASSERT_FALSE(leaking);
-    EXPECT_NE(leaking.error().sentence.find("3 edges"), std::string::npos) << leaking.error().sentence;
-    EXPECT_NE(leaking.error().sentence.find("the first runs from (1, 0, "), std::string::npos)
-        << leaking.error().sentence;
-    const Mesh sheet = joined(mesh::box({0, 0, 0}, {1, 2, 3}), reversed(mesh::box({0, 0, 0}, {1, 2, 3})));
-    const Result<Built> nothing = build(std::span(&sheet, 1));
-    ASSERT_FALSE(nothing);
-    EXPECT_EQ(nothing.error().code, ErrorCode::not_a_solid);
-}
-
-TEST(Build, SaysThatASurfaceIsInsideOut) {
-    const Mesh inverted = reversed(mesh::icosphere(1, 4));
-    for (const OverlapPolicy overlaps : {OverlapPolicy::reject, OverlapPolicy::winding})
-        for (const bool conforming : {false, true}) {
-            Options options{.level = 4, .keep = Keep::half};
-            options.overlaps = overlaps;
-            const Result<Built> refused = conforming ? build_conforming(std::span(&inverted, 1), options)
-                                                     : build(std::span(&inverted, 1), options);
-            ASSERT_FALSE(refused) << conforming;
-            EXPECT_EQ(refused.error().code, ErrorCode::not_a_solid);
-            EXPECT_EQ(refused.error().sentence.rfind("the surface is inside out", 0), 0u)
-                << refused.error().sentence;
-            EXPECT_FALSE(refused.error().place.faces.empty());
-        }
-    const Mesh solids[] = {mesh::cube(), inverted};
-    const Result<Built> second = build(solids, {.level = 4});
-    ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().sentence.rfind("solid 1: the surface is inside out", 0), 0u);
 }
 
 TEST(Build, RefusesAMeshWithoutCells) {

@@ -181,6 +181,27 @@ TEST(Fit, DrawsToTheFacesThatCloseHolesToo) {
     expect_cube(bounds_of(built->mesh, 0), 4.4);
 }
 
+TEST(Fit, TakesNoNoticeOfVerticesThatNoFacetUses) {
+    const mesh::Mesh sphere = mesh::icosphere(1, 8);
+    const Options meshing{.precision = 0.2, .layers = 1, .keep = Keep::manifold};
+    Result<Built> plain = build(std::span(&sphere, 1), meshing);
+    ASSERT_TRUE(plain);
+    const Result<FitReport> expected = fit(plain->mesh, std::span(&sphere, 1));
+    ASSERT_TRUE(expected);
+    EXPECT_LT(expected->mean_distance, 1e-4);
+    for (const double x : {5000.0, 1e9, 1e300}) {
+        mesh::Mesh solid = sphere;
+        solid.vertices.push_back({x, 0, 0});
+        Result<Built> built = build(std::span(&solid, 1), meshing);
+        ASSERT_TRUE(built);
+        const Result<FitReport> report = fit(built->mesh, std::span(&solid, 1));
+        ASSERT_TRUE(report) << report.error().describe();
+        EXPECT_EQ(built->mesh.positions, plain->mesh.positions);
+        EXPECT_EQ(report->mean_distance, expected->mean_distance);
+        EXPECT_EQ(report->nodes_on_surface, expected->nodes_on_surface);
+    }
+}
+
 TEST(Fit, RefusesMeshesInWhichMastersHang) {
     const mesh::Mesh solid = mesh::icosphere(1, 8);
     Result<Built> built = build(std::span(&solid, 1),
