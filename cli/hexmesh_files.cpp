@@ -76,8 +76,10 @@ bool needs_octants(HexmeshFormat format) {
 Result<io::WriteReport> write_hexmesh(HexmeshFormat format, const std::string& path,
                                       const mesh::HexMesh& mesh, std::span<const std::string> names,
                                       const Context& context, std::span<const io::CellData> more) {
-    if (needs_octants(format) && !mesh.is_octree())
-        return Error{ErrorCode::unsupported, "this format is for octrees, and a conforming mesh is none", {}};
+    if (needs_octants(format) && !(mesh.is_octree() && mesh.positions.empty()))
+        return Error{ErrorCode::unsupported,
+                     "this format is for octrees, and a conforming or fitted mesh is none",
+                     {}};
     switch (format) {
         case HexmeshFormat::abaqus:
             return io::write_abaqus(path, mesh, {.names = names}, context);

@@ -164,9 +164,14 @@ Status draw(Session& session, const Context& context, const HexmeshOptions& opti
 
 Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     const Context context = session.context();
-    const Result<HexmeshFormat> format =
-        settle_hexmesh_output(session, options.inputs, options.output, options.to);
+    std::vector<std::string> read = options.inputs;
+    if (!options.values.empty()) read.push_back(options.values);
+    const Result<HexmeshFormat> format = settle_hexmesh_output(session, read, options.output, options.to);
     if (!format) return format.error();
+    if (options.fit && !options.output.empty() && needs_octants(*format))
+        return session.usage_error(
+            "--fit moves nodes, and this format has none: it is for octrees; write .vtu, .inp, .msh, "
+            ".mesh or a folder, or leave out --fit");
     const Result<hexmesh::Options> meshing = meshing_options(options);
     if (!meshing) return session.usage_error(meshing.error().sentence);
     Result<std::vector<mesh::Mesh>> solids = read_solids(session, context, options);
@@ -184,10 +189,8 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     session.result = json_of(*built, names);
     session.text = text_of(*built, names);
     if (options.fit) {
-        hexmesh::FitOptions fitting;
-        if (needs_octants(*format)) fitting.buffer_layer = hexmesh::BufferLayer::none;
         Result<hexmesh::FitReport> fitted =
-            session.timed("fit", [&] { return hexmesh::fit(built->mesh, *solids, fitting, context); });
+            session.timed("fit", [&] { return hexmesh::fit(built->mesh, *solids, {}, context); });
         if (!fitted) return std::move(fitted).error();
         add_fit(session, *fitted, built->mesh);
     }

@@ -64,10 +64,12 @@ void write_nodes(Output& output, const mesh::HexMesh& mesh) {
 void write_elements(Output& output, const mesh::HexMesh& mesh, const mesh::Materials& materials,
                     const std::vector<std::string>& names) {
     constexpr std::array<std::size_t, 8> order{0, 1, 3, 2, 4, 5, 7, 6};
+    std::vector<std::vector<mesh::CellIndex>> cells(materials.solids.size());
+    for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell)
+        cells[materials.of(mesh, cell)].push_back(cell);
     for (std::uint32_t material = 0; material < materials.solids.size(); ++material) {
         output.append("*ELEMENT, TYPE=C3D8, ELSET=" + names[material] + "\n");
-        for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell) {
-            if (materials.of(mesh, cell) != material) continue;
+        for (const mesh::CellIndex cell : cells[material]) {
             append_count(output, cell + std::uint64_t{1});
             for (const std::size_t corner : order) {
                 output.append(',');
@@ -115,15 +117,13 @@ void write_surfaces(Output& output, const mesh::HexMesh& mesh, const mesh::Mater
                     const std::vector<std::string>& names) {
     // Abaqus numbers the sides of C3D8: bottom, top, then those at the edges 1-2, 2-3, 3-4 and 4-1 of the bottom.
     constexpr std::array<std::uint64_t, 6> number_of_side{6, 4, 3, 5, 1, 2};
-    const std::vector<mesh::HexSide> sides = mesh::boundary_sides(mesh).sides;
+    std::vector<std::vector<mesh::HexSide>> sides(materials.solids.size());
+    for (const mesh::HexSide& side : mesh::boundary_sides(mesh).sides)
+        sides[materials.of(mesh, side.cell)].push_back(side);
     for (std::uint32_t material = 0; material < materials.solids.size(); ++material) {
-        bool begun = false;
-        for (const mesh::HexSide& side : sides) {
-            if (materials.of(mesh, side.cell) != material) continue;
-            if (!begun)
-                output.append("*SURFACE, TYPE=ELEMENT, NAME=" + std::string(surface_of) + names[material] +
-                              "\n");
-            begun = true;
+        if (sides[material].empty()) continue;
+        output.append("*SURFACE, TYPE=ELEMENT, NAME=" + std::string(surface_of) + names[material] + "\n");
+        for (const mesh::HexSide& side : sides[material]) {
             append_count(output, side.cell + std::uint64_t{1});
             output.append(",S");
             append_count(output, number_of_side[side.side]);

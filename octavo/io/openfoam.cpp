@@ -151,11 +151,21 @@ class PartFolder {
         fs::create_directories(path_, code);
         return code;
     }
+    /// What is at the place stays whole until the folder is there instead.
     std::error_code move_to(const fs::path& place) {
-        std::error_code code;
-        fs::remove_all(place, code);
-        if (!code) fs::rename(path_, place, code);
+        std::error_code code, ignored;
+        fs::path old = path_;
+        old += ".old";
+        const bool replaces = fs::exists(fs::symlink_status(place, ignored));
+        if (replaces) fs::rename(place, old, code);
+        if (code) return code;
+        fs::rename(path_, place, code);
         is_moved_ = !code;
+        if (!replaces) return code;
+        if (code)
+            fs::rename(old, place, ignored);
+        else
+            fs::remove_all(old, ignored);
         return code;
     }
 

@@ -63,7 +63,7 @@ void append_leaf(Output& output, CellKey leaf, int root_level, std::int32_t data
 
 Result<WriteReport> write_p8est(const std::string& path, const mesh::HexMesh& mesh,
                                 const P8estOptions& options, const Context& context) {
-    OCTAVO_CHECK(mesh.is_octree(), "only a mesh of octants is a tree of p4est");
+    OCTAVO_CHECK(mesh.is_octree() && mesh.positions.empty(), "only a mesh of octants is a tree of p4est");
     OCTAVO_CHECK(options.root_level == 19 || options.root_level == 30, "p4est's roots are 2^19 or 2^30 long");
     int deepest = 0;
     for (const CellKey cell : mesh.cells) deepest = std::max(deepest, cell.level());

@@ -182,7 +182,12 @@ TEST_F(Hexmesh, RefusesBadUsageAndBadDataWithThePlace) {
                                   "hexmesh cube.off --keep some",
                                   "hexmesh cube.off -o -",
                                   "hexmesh cube.off --to stl -o c.inp",
-                                  "hexmesh cube.off --proximity nan"})
+                                  "hexmesh cube.off --proximity nan",
+                                  "hexmesh cube.off --fit -o c.csv",
+                                  "hexmesh cube.off --fit -o c.p8est",
+                                  "hexmesh cube.off --fit --to p8est-30 -o c.p8est",
+                                  "hexmesh cube.off --fit -o c.htg",
+                                  "hexmesh cube.off --fit -o c.oct"})
         EXPECT_EQ(octavo(arguments).exit_code, 2) << arguments;
     for (const char* arguments :
          {"hexmesh none.off -o c.inp", "hexmesh cube.off -o c.msh --level 3 --box 0,0,0,0.1,0.1,0.1:0.05",
@@ -194,8 +199,39 @@ TEST_F(Hexmesh, RefusesBadUsageAndBadDataWithThePlace) {
     const Ran ran = octavo("hexmesh cube.off open.off -o c.inp --json");
     EXPECT_EQ(ran.exit_code, 3);
     EXPECT_EQ(ran.json()["error"]["file"], "open.off");
+    EXPECT_EQ(ran.json()["error"]["message"].get<std::string>().find("solid 1"), std::string::npos);
     EXPECT_FALSE(ran.json()["error"]["faces"].empty());
     EXPECT_NE(ran.err.find("the first runs from"), std::string::npos) << ran.err;
+}
+
+TEST_F(Hexmesh, OverwritesNothingThatItReads) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
+    write("values.csv", "1\n2\n");
+    for (const char* arguments : {"hexmesh cube.off --level 0 --values values.csv -o values.csv",
+                                  "hexmesh cube.off --level 0 --values values.csv -o ./values.csv"}) {
+        const Ran ran = octavo(arguments);
+        EXPECT_NE(ran.exit_code, 0);
+        EXPECT_NE(ran.err.find("would overwrite"), std::string::npos) << ran.err;
+        EXPECT_EQ(read("values.csv"), "1\n2\n");
+    }
+}
+
+TEST_F(Hexmesh, SaysWhichFilesAndFacetsOverlapThemselves) {
+    const std::string box =
+        "v 0 0 0\nv 4.6 0 0\nv 0 4.6 0\nv 4.6 4.6 0\nv 0 0 4.6\nv 4.6 0 4.6\nv 0 4.6 4.6\n"
+        "v 4.6 4.6 4.6\nv 4.55 .1 .1\nv 9 .1 .1\nv 4.55 4.5 .1\nv 9 4.5 .1\nv 4.55 .1 4.5\n"
+        "v 9 .1 4.5\nv 4.55 4.5 4.5\nv 9 4.5 4.5\n"
+        "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
+        "f 9 11 12 10\nf 13 14 16 15\nf 9 10 14 13\nf 11 15 16 12\nf 9 13 15 11\nf 10 12 16 14\n";
+    write("thin.obj", box);
+    const Ran refused = octavo("hexmesh thin.obj -p 1 -o thin.vtu --json");
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_EQ(refused.json()["error"]["file"], "thin.obj");
+    EXPECT_EQ(refused.json()["error"]["faces"].size(), 2u);
+    const Ran counted = octavo("hexmesh thin.obj -p 1 -o thin.vtu --overlaps winding --json");
+    EXPECT_EQ(counted.exit_code, 0) << counted.err;
+    EXPECT_EQ(counted.json()["result"]["overlaps"], true);
+    EXPECT_NE(counted.err.find("overlaps"), std::string::npos) << counted.err;
 }
 
 }  // namespace

@@ -178,6 +178,27 @@ TEST(WriteOpenFoam, LeavesNothingBehindWhenItIsCancelled) {
     EXPECT_FALSE(fs::exists(folder / "new"));
 }
 
+TEST(WriteOpenFoam, ReplacesAnEarlierMeshAsAWhole) {
+    const Folder folder;
+    fs::create_directories(folder / "constant/polyMesh/sets");
+    std::ofstream(folder / "constant/polyMesh/stale") << "old";
+    std::ofstream(folder / "constant/transportProperties") << "kept";
+    const mesh::PolyhedralMesh mesh = to_polyhedra(graded_mesh().mesh);
+    const std::atomic<bool> cancel = true;
+    EXPECT_FALSE(io::write_openfoam(folder.string(), mesh, {.on_progress = {}, .cancel = &cancel}));
+    EXPECT_TRUE(fs::exists(folder / "constant/polyMesh/stale")) << "until there is another";
+    ASSERT_TRUE(io::write_openfoam(folder.string(), mesh));
+    EXPECT_TRUE(fs::exists(folder / "constant/polyMesh/owner"));
+    EXPECT_FALSE(fs::exists(folder / "constant/polyMesh/stale"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "constant"), {}), 2) << "nothing is left over";
+    // What is there may be a link, which is replaced, not followed.
+    fs::rename(folder / "constant/polyMesh", folder / "elsewhere");
+    fs::create_directory_symlink(folder / "elsewhere", folder / "constant/polyMesh");
+    ASSERT_TRUE(io::write_openfoam(folder.string(), mesh));
+    EXPECT_FALSE(fs::is_symlink(folder / "constant/polyMesh"));
+    EXPECT_TRUE(fs::exists(folder / "elsewhere/owner"));
+}
+
 TEST(WriteAbaqus, HasNoNumberLongerThanCalculixReads) {
     const mesh::Mesh solid = mesh::displaced_sphere(6);
     const Result<Built> built = build(std::span(&solid, 1), {.level = 5});
