@@ -105,11 +105,16 @@ void add_quality(Session& session, const hexmesh::Quality& quality) {
     session.result["quality"] = {{"least_scaled_jacobian", quality.least},
                                  {"mean_scaled_jacobian", quality.mean},
                                  {"histogram", quality.histogram},
+                                 {"shortest_edge", quality.shortest_edge},
+                                 {"largest_edge_ratio", quality.largest_edge_ratio},
                                  {"not_proved_positive", quality.not_proved_positive}};
     std::uint64_t most = 1;
     for (const std::uint64_t count : quality.histogram) most = std::max(most, count);
-    session.text += fmt::format("scaled Jacobian at least {}, mean {}\n", number_text(quality.least),
-                                number_text(quality.mean));
+    session.text += fmt::format(
+        "shortest edge {}; edges of one cell differ by {} times at most\nscaled Jacobian at least {}, mean "
+        "{}\n",
+        number_text(quality.shortest_edge), number_text(quality.largest_edge_ratio),
+        number_text(quality.least), number_text(quality.mean));
     for (std::size_t i = 0; i < quality.histogram.size(); ++i) {
         const auto bar = static_cast<std::size_t>(
             std::ceil(40.0 * static_cast<double>(quality.histogram[i]) / static_cast<double>(most)));

@@ -20,7 +20,7 @@ Json json_of(const hexmesh::Built& built, std::span<const std::string> names);
 /// The same for people.
 std::string text_of(const hexmesh::Built& built, std::span<const std::string> names);
 
-/// Adds `quality`: least, mean and a histogram of the scaled Jacobian.
+/// Adds `quality`: least, mean and a histogram of the scaled Jacobian, the shortest edge and the largest edge ratio.
 void add_quality(Session& session, const hexmesh::Quality& quality);
 
 /// Adds `fit`: how near the boundary came to the surface; counts are those of the fitted mesh from here on.

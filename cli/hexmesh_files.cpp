@@ -67,6 +67,11 @@ Result<HexmeshFormat> settle_hexmesh_output(Session& session, const std::vector<
     return HexmeshFormat::vtu;  // nothing is written
 }
 
+bool is_for_solvers(HexmeshFormat format) {
+    return format == HexmeshFormat::abaqus || format == HexmeshFormat::openfoam ||
+           format == HexmeshFormat::mfem || format == HexmeshFormat::gmsh;
+}
+
 bool needs_octants(HexmeshFormat format) {
     return format == HexmeshFormat::leaf_list || format == HexmeshFormat::p8est ||
            format == HexmeshFormat::p8est_30 || format == HexmeshFormat::hyper_tree_grid ||

@@ -41,6 +41,9 @@ std::vector<std::string> hexmesh_format_names();
 Result<HexmeshFormat> settle_hexmesh_output(Session& session, const std::vector<std::string>& inputs,
                                             const std::string& output, const std::string& to);
 
+/// Whether the format is read by solvers, which know whole cells and no fractions.
+bool is_for_solvers(HexmeshFormat format);
+
 /// Whether the format knows the cells of an octree only.
 bool needs_octants(HexmeshFormat format);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include <octavo/render/raster.hpp>
 
 #include "cell_values.hpp"
+#include "hexmesh_body.hpp"
 #include "hexmesh_facts.hpp"
 #include "hexmesh_files.hpp"
 #include "hexmesh_sizes.hpp"
@@ -194,7 +196,11 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
         if (!fitted) return std::move(fitted).error();
         add_fit(session, *fitted, built->mesh);
     }
-    if (options.conforming || options.fit) add_quality(session, hexmesh::measure_quality(built->mesh));
+    std::optional<hexmesh::Quality> quality;
+    if (options.conforming || options.fit) quality = hexmesh::measure_quality(built->mesh);
+    add_body(session, *built, *solids, quality,
+             {.for_solver = !options.output.empty() && is_for_solvers(*format), .is_fitted = options.fit});
+    if (quality) add_quality(session, *quality);
     const Result<CellNumbers> numbers = cell_numbers(session, options, built->mesh);
     if (!numbers) return numbers.error();
     if (!options.output.empty()) {
@@ -223,7 +229,7 @@ void add_size_options(Verb* verb, HexmeshOptions& options) {
                         ->check(whole_number(0, octree::max_level))
                         ->type_name("N");
     verb->add_option("-p,--precision", options.precision,
-                     "Cells on surfaces are no larger than this, in the model's units")
+                     "Cells that a surface passes through are no larger than this, in the model's units")
         ->check(check_positive)
         ->type_name("LENGTH")
         ->excludes(level);
@@ -240,7 +246,7 @@ void add_size_options(Verb* verb, HexmeshOptions& options) {
         ->type_name("FILE:LENGTH[:LENGTH]");
     verb->add_option("--box", options.boxes, "Cells in the box are no larger than this")
         ->check(checked_by(parse_box, "wants x0,y0,z0,x1,y1,z1:LENGTH"))
-        ->type_name("BOX:LENGTH");
+        ->type_name("X0,Y0,Z0,X1,Y1,Z1:LENGTH");
     verb->add_option("--max-cells", options.max_cells,
                      "Give up beyond so many cells of the octree: a count such as 20M, some 65 bytes each")
         ->check(check_count)

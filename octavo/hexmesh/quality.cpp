@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include <octavo/hexmesh/quality.hpp>
 
@@ -8,6 +10,49 @@ namespace octavo::hexmesh {
 namespace {
 
 double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
+
+/// The determinant of a cell's trilinear map in Bernstein form, index i + 3 j + 9 k.
+struct JacobianOfCell {
+    std::array<double, 27> coefficients{};
+    double longest_edge = 0, shortest_edge = 0;
+};
+
+JacobianOfCell jacobian_of(const CellCorners& p) {
+    // Derivatives along x at (y, z) ∈ {0, 1}², and so on: index = first + 2 * second of the other two axes.
+    std::array<Vec3, 4> dx, dy, dz;
+    double longest = 0, shortest = std::numeric_limits<double>::infinity();
+    for (unsigned i = 0; i < 4; ++i) {
+        const unsigned low = i & 1, high = i >> 1;
+        dx[i] = p[1 | low << 1 | high << 2] - p[low << 1 | high << 2];  // y, z
+        dy[i] = p[low | 2 | high << 2] - p[low | high << 2];            // x, z
+        dz[i] = p[low | high << 1 | 4] - p[low | high << 1];            // x, y
+        for (const Vec3& edge : {dx[i], dy[i], dz[i]}) {
+            longest = std::max(longest, dot(edge, edge));
+            shortest = std::min(shortest, dot(edge, edge));
+        }
+    }
+    JacobianOfCell jacobian{{}, std::sqrt(longest), std::sqrt(shortest)};
+    // Products of linear Bernstein polynomials along each axis: indices add, weights are 1, ½ + ½, 1.
+    for (unsigned a = 0; a < 4; ++a)
+        for (unsigned b = 0; b < 4; ++b)
+            for (unsigned c = 0; c < 4; ++c) {
+                const unsigned i = (b & 1) + (c & 1), j = (a & 1) + (c >> 1), k = (a >> 1) + (b >> 1);
+                const double weight = (i == 1 ? 0.5 : 1) * (j == 1 ? 0.5 : 1) * (k == 1 ? 0.5 : 1);
+                jacobian.coefficients[i + 3 * j + 9 * k] += weight * determinant(dx[a], dy[b], dz[c]);
+            }
+    return jacobian;
+}
+
+bool is_positive(const JacobianOfCell& jacobian) {
+    const double margin = 1e-9 * jacobian.longest_edge * jacobian.longest_edge * jacobian.longest_edge;
+    return margin > 0 && std::all_of(jacobian.coefficients.begin(), jacobian.coefficients.end(),
+                                     [&](double value) { return value > margin; });
+}
+
+/// Each Bernstein polynomial of degree 2 has the integral 1/3.
+double volume_under(const JacobianOfCell& jacobian) {
+    return std::accumulate(jacobian.coefficients.begin(), jacobian.coefficients.end(), 0.0) / 27;
+}
 
 }  // namespace
 
@@ -24,29 +69,9 @@ double scaled_jacobian(const CellCorners& p) {
     return least;
 }
 
-bool is_positive_everywhere(const CellCorners& p) {
-    // Derivatives along x at (y, z) ∈ {0, 1}², and so on: index = first + 2 * second of the other two axes.
-    std::array<Vec3, 4> dx, dy, dz;
-    double longest = 0;
-    for (unsigned i = 0; i < 4; ++i) {
-        const unsigned low = i & 1, high = i >> 1;
-        dx[i] = p[1 | low << 1 | high << 2] - p[low << 1 | high << 2];  // y, z
-        dy[i] = p[low | 2 | high << 2] - p[low | high << 2];            // x, z
-        dz[i] = p[low | high << 1 | 4] - p[low | high << 1];            // x, y
-        for (const Vec3& edge : {dx[i], dy[i], dz[i]}) longest = std::max(longest, dot(edge, edge));
-    }
-    // Products of linear Bernstein polynomials along each axis: indices add, weights are 1, ½ + ½, 1.
-    std::array<double, 27> sum{};
-    for (unsigned a = 0; a < 4; ++a)
-        for (unsigned b = 0; b < 4; ++b)
-            for (unsigned c = 0; c < 4; ++c) {
-                const unsigned i = (b & 1) + (c & 1), j = (a & 1) + (c >> 1), k = (a >> 1) + (b >> 1);
-                const double weight = (i == 1 ? 0.5 : 1) * (j == 1 ? 0.5 : 1) * (k == 1 ? 0.5 : 1);
-                sum[i + 3 * j + 9 * k] += weight * determinant(dx[a], dy[b], dz[c]);
-            }
-    const double margin = 1e-9 * longest * std::sqrt(longest);
-    return margin > 0 && std::all_of(sum.begin(), sum.end(), [&](double value) { return value > margin; });
-}
+bool is_positive_everywhere(const CellCorners& corners) { return is_positive(jacobian_of(corners)); }
+
+double volume_of(const CellCorners& corners) { return volume_under(jacobian_of(corners)); }
 
 CellCorners corners_of(const mesh::HexMesh& mesh, mesh::CellIndex cell) {
     CellCorners corners;
@@ -64,15 +89,21 @@ std::vector<double> scaled_jacobians(const mesh::HexMesh& mesh) {
 
 Quality measure_quality(const mesh::HexMesh& mesh) {
     Quality quality;
-    double sum = 0;
+    double sum = 0, shortest = std::numeric_limits<double>::infinity();
     for (mesh::CellIndex cell = 0; cell < mesh.cell_count(); ++cell) {
         const CellCorners corners = corners_of(mesh, cell);
         const double value = scaled_jacobian(corners);
         quality.least = std::min(quality.least, value);
         sum += value;
         ++quality.histogram[static_cast<std::size_t>(std::clamp(std::floor(value * 10), 0.0, 9.0))];
-        quality.not_proved_positive += !is_positive_everywhere(corners);
+        const JacobianOfCell jacobian = jacobian_of(corners);
+        quality.not_proved_positive += !is_positive(jacobian);
+        quality.volume += volume_under(jacobian);
+        shortest = std::min(shortest, jacobian.shortest_edge);
+        quality.largest_edge_ratio =
+            std::max(quality.largest_edge_ratio, jacobian.longest_edge / jacobian.shortest_edge);
     }
+    if (mesh.cell_count() > 0) quality.shortest_edge = shortest;
     if (mesh.cell_count() > 0) quality.mean = sum / static_cast<double>(mesh.cell_count());
     return quality;
 }

@@ -16,7 +16,9 @@
 // in Bernstein form it lies between the least and the largest of its 27 coefficients, so when all are positive it is
 // positive everywhere (A. Johnen, J.-C. Weill, J.-F. Remacle, Robust and efficient validation of the linear
 // hexahedral element, 2017). Coefficients must exceed 10⁻⁹ of the cube of the longest edge, a million times what
-// rounding does to them, so a yes is a proof.
+// rounding does to them, so a yes is a proof. Their mean is the volume of the cell, exact in real arithmetic.
+//
+// Cells may have right angles and still be slivers: so the shortest edge and the largest ratio of edges are told too.
 
 namespace octavo::hexmesh {
 
@@ -27,10 +29,16 @@ double scaled_jacobian(const CellCorners& corners);
 /// True only if the trilinear map is positively oriented everywhere in the cell.
 bool is_positive_everywhere(const CellCorners& corners);
 
+/// The volume of the image of the unit cube under the trilinear map; negative where more of it is folded than not.
+double volume_of(const CellCorners& corners);
+
 struct Quality {
-    double least = 1, mean = 1;
+    double least = 1, mean = 1;  ///< scaled Jacobian
     /// Cells with scaled Jacobian in [i/10, (i+1)/10); those below 0 in the first, 1 in the last.
     std::array<std::uint64_t, 10> histogram{};
+    double volume = 0;                      ///< of all cells
+    double shortest_edge = 0;               ///< in world units
+    double largest_edge_ratio = 1;          ///< longest over shortest edge of one cell
     std::uint64_t not_proved_positive = 0;  ///< cells that `is_positive_everywhere` does not vouch for
 };
 

@@ -43,6 +43,42 @@ TEST_F(Hexmesh, SaysInWordsHowMuchOfASolidIsFilled) {
     }
 }
 
+TEST_F(Hexmesh, TellsWhatBodyASolverWillSee) {
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
+    const json exact = octavo("hexmesh cube.off -p 0.25 -o a.inp --json").json();
+    EXPECT_EQ(exact["result"]["mesh_volume"], 8.0);
+    EXPECT_EQ(exact["result"]["pieces"], 1);
+    EXPECT_TRUE(exact["warnings"].empty()) << exact;
+
+    // Cells that a rock touches stick out of it; the boundary drawn onto it gives the volume back.
+    ASSERT_EQ(octavo("shape rock --detail 6 -o rock.ply").exit_code, 0);
+    const Ran stairs = octavo("hexmesh rock.ply --level 3 -o rock.inp");
+    EXPECT_NE(stairs.err.find("% more volume than the solid"), std::string::npos) << stairs.err;
+    EXPECT_NE(stairs.out.find("the mesh: 1 piece, volume "), std::string::npos) << stairs.out;
+    EXPECT_EQ(octavo("hexmesh rock.ply --level 3 -o rock.vtu").err.find("% more"), std::string::npos)
+        << "a viewer has the fractions";
+    const json fitted = octavo("hexmesh rock.ply --level 6 --fit -o rock.inp --json").json()["result"];
+    EXPECT_NEAR(fitted["mesh_volume"].get<double>() / fitted["solids"][0]["exact_volume"].get<double>(), 1,
+                0.02);
+    EXPECT_GT(fitted["quality"]["shortest_edge"].get<double>(), 0);
+    EXPECT_GE(fitted["quality"]["largest_edge_ratio"].get<double>(), 1);
+}
+
+TEST_F(Hexmesh, WarnsWhenTheMeshFallsIntoMorePiecesThanTheSolid) {
+    // A dumbbell: two cubes and a rod between them that cells half filled or less leave out.
+    const auto moved = [](const std::string& x, const std::string& yz, const std::string& size) {
+        return "multmatrix([[1,0,0," + x + "],[0,1,0," + yz + "],[0,0,1," + yz +
+               "],[0,0,0,1]]) { cube(size = [" + size + "]); }";
+    };
+    write("dumbbell.csg", "union() { cube(size = [4,4,4]);" + moved("4", "1.9", "8,0.2,0.2") +
+                              moved("12", "0", "4,4,4") + "}");
+    const Ran ran = octavo("hexmesh dumbbell.csg -p 1 --keep half");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_NE(ran.err.find("the mesh falls into 2 pieces, the solid is of 1 shell"), std::string::npos)
+        << ran.err;
+    EXPECT_EQ(octavo("hexmesh dumbbell.csg -p 0.1 --keep half").err.find("falls into"), std::string::npos);
+}
+
 TEST_F(Hexmesh, WritesEveryFormat) {
     ASSERT_EQ(octavo("shape gear -o gear.ply").exit_code, 0);
     for (const char* output : {"g.inp", "g.mesh", "g.csv", "g.p8est", "g.vtu", "g.htg"}) {

@@ -45,6 +45,23 @@ TEST(Quality, KnowsCubesSlabsAndFolds) {
     EXPECT_FALSE(is_positive_everywhere(point));
 }
 
+TEST(Quality, KnowsVolumesOfCellsWithBentFaces) {
+    EXPECT_DOUBLE_EQ(volume_of(cube()), 1);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> offset(-0.3, 0.3);
+    for (int round = 0; round < 100; ++round) {
+        CellCorners corners = cube();
+        for (Vec3& p : corners) p = p + Vec3{offset(random), offset(random), offset(random)};
+        // The determinant has degree 2 along each axis, so Gauss' rule of two points is exact.
+        const double near = 0.5 - std::sqrt(1.0 / 12), far = 1 - near;
+        double integral = 0;
+        for (const double u : {near, far})
+            for (const double v : {near, far})
+                for (const double w : {near, far}) integral += determinant_at(corners, u, v, w) / 8;
+        EXPECT_NEAR(volume_of(corners), integral, 1e-14);
+    }
+}
+
 TEST(Quality, ProvesOnlyWhatIsPositiveEverywhere) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> offset(-0.6, 0.6), place(0, 1);
