@@ -30,7 +30,7 @@ Json json_of(const hexmesh::SolidReport& solid, const std::string& name, bool ex
                  {"interior_volume", solid.inside_volume},
                  {"boundary_volume", solid.boundary_volume},
                  {"exact_volume", solid.exact_volume},
-                 {"snap_displacement", solid.largest_displacement}};
+                 {"largest_displacement", solid.largest_displacement}};
     if (exact) json["filled_volume"] = solid.filled_volume;
     return json;
 }

@@ -98,10 +98,13 @@ TEST(Prune, PrunedProgramsColourEveryOctantLikeTheWholeOne) {
     for (int round = 0; round < 200; ++round) {
         // Leaves without payload: their colours do not depend on the way down.
         std::vector<Expr> leaves;
-        for (int i = 2 + random.below(8); i > 0; --i)
-            leaves.push_back(transform(random.map(), random.below(2)
-                                                         ? Expr(Ball{random.uniform(0.3, 2)})
-                                                         : Expr(Cuboid{{-1, -1, -1}, {1, 1, 1}})));
+        for (int i = 2 + random.below(8); i > 0; --i) {
+            // Drawn one after the other: compilers differ in the order of arguments.
+            const Affine map = random.map();
+            const bool round = random.below(2) != 0;
+            leaves.push_back(transform(
+                map, round ? Expr(Ball{random.uniform(0.3, 2)}) : Expr(Cuboid{{-1, -1, -1}, {1, 1, 1}})));
+        }
         Expr expression = leaves[0];
         for (std::size_t i = 1; i < leaves.size(); ++i) {
             const int pick = random.below(5);

@@ -294,14 +294,14 @@ TEST(InsideQuery, AgreesWithRationalRaysOnEveryModelThatIsClosed) {
         const mesh::LatticeMesh mesh = mesh::snap(read->mesh)->mesh;
         if (!InsideQuery::build(mesh)) continue;  // open
         // The oracle looks at all facets for every point: few points on a large model, many on a small one.
-        const std::size_t looks = 1'000'000u * static_cast<std::size_t>(tests::effort());
-        const std::size_t count = std::clamp<std::size_t>(looks / mesh.triangles.size(), 30, 3000);
+        const std::size_t looks = 100'000u * static_cast<std::size_t>(tests::effort());
+        const std::size_t count = std::clamp<std::size_t>(looks / mesh.triangles.size(), 5, 3000);
         const Tally tally = expect_answers_of_the_oracle(mesh, telling_points(mesh, count, 7), 120);
         ASSERT_FALSE(HasFailure()) << entry.path();
         ++models, answers += tally.inside + tally.on + tally.outside;
     }
     std::cout << answers << " answers on " << models << " closed models\n";
-    EXPECT_GE(answers, 100'000u);
+    EXPECT_GE(answers, 10'000u);
 }
 
 }  // namespace
