@@ -101,9 +101,9 @@ TEST(Prune, PrunedProgramsColourEveryOctantLikeTheWholeOne) {
         for (int i = 2 + random.below(8); i > 0; --i) {
             // Drawn one after the other: compilers differ in the order of arguments.
             const Affine map = random.map();
-            const bool round = random.below(2) != 0;
+            const bool is_ball = random.below(2) != 0;
             leaves.push_back(transform(
-                map, round ? Expr(Ball{random.uniform(0.3, 2)}) : Expr(Cuboid{{-1, -1, -1}, {1, 1, 1}})));
+                map, is_ball ? Expr(Ball{random.uniform(0.3, 2)}) : Expr(Cuboid{{-1, -1, -1}, {1, 1, 1}})));
         }
         Expr expression = leaves[0];
         for (std::size_t i = 1; i < leaves.size(); ++i) {
