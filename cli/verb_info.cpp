@@ -195,7 +195,7 @@ std::string contacts_text(const Facts& facts) {
     return text;
 }
 
-std::string text_of(const Facts& facts, const std::string& name) {
+std::string table_of(const Facts& facts, const std::string& name) {
     const mesh::Measures& m = facts.measures;
     const auto yes_or_no = [](bool yes) { return yes ? "yes" : "no"; };
     const double reach = m.bounds.empty() ? 0 : std::max(length(m.bounds.low), length(m.bounds.high));
@@ -224,7 +224,7 @@ Result<ExitCode> mesh_info(Session& session, const Context& context, const InfoO
     Result<Facts> facts = gather(session, context, *read);
     if (!facts) return in_file(std::move(facts).error(), options.input);
     session.result = result_of(*facts);
-    session.text = text_of(*facts, options.input);
+    session.text = table_of(*facts, options.input);
     return ExitCode::ok;
 }
 
