@@ -27,7 +27,7 @@
 //  6. Shells that are inside out are turned, together with the shells inside them.
 //  7. Vertices that no facet uses are dropped.
 //
-// repair(repair(x)) is repair(x).
+// repair(repair(x)) is repair(x), but for rare bags of bodies that share facets and edges (docs/methods/validate.md).
 
 namespace octavo::mesh {
 
