@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <octavo/base/parallel.hpp>
 #include <octavo/base/uninitialised.hpp>
+#include <octavo/boolean/lanes.hpp>
 #include <octavo/boolean/near_facets.hpp>
 
 namespace octavo::boolean {
@@ -208,13 +209,14 @@ constexpr std::uint32_t large_group = 64;
 }  // namespace
 
 NearFacets::NearFacets(const Surface& surface, const Soup& soup, std::span<const Pair> near,
-                       const RoundedPoints& rounded, const Context& context) {
+                       const RoundedPoints& rounded, const Context& context)
+    : moved_(2 * placing_bound(soup.lattice) + 0x1p-24) {
     PairSearch search(surface, soup, rounded, context);
     pairs_ = search.run(near);
-    fill_groups(surface, rounded, search.first_of(), search.next(), context);
+    fill_groups(surface, soup, rounded, search.first_of(), search.next(), context);
 }
 
-void NearFacets::fill_groups(const Surface& surface, const RoundedPoints& rounded,
+void NearFacets::fill_groups(const Surface& surface, const Soup& soup, const RoundedPoints& rounded,
                              std::span<const std::uint32_t> first_of, std::span<const std::uint32_t> next,
                              const Context& context) {
     std::vector<std::uint32_t> facets;
@@ -231,6 +233,10 @@ void NearFacets::fill_groups(const Surface& surface, const RoundedPoints& rounde
     Soup corners;  // of the triangles in large groups
     for (const std::uint32_t facet : facets) {
         const auto begin = static_cast<std::uint32_t>(triangles_.size());
+        const auto [p, q, r] = soup.facets[facet];
+        const exact::Plane plane = exact::Plane::through(soup.points[p], soup.points[q], soup.points[r]);
+        const int axis = plane.dominant_axis();
+        const double turn = exact::sign_of(plane.normal(axis)) == exact::Sign::positive ? 1 : -1;
         for (std::uint32_t i = first_of[facet]; i != no_index; i = next[i]) {
             const mesh::Triangle& t = surface.triangles[i];
             const exact::Point a = below(t[0]), b = below(t[1]), c = below(t[2]);
@@ -238,8 +244,16 @@ void NearFacets::fill_groups(const Surface& surface, const RoundedPoints& rounde
             const exact::Point low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
                                    std::min({a.z, b.z, c.z})},
                 high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
-            boxes_.push_back({{low.x - mending, low.y - mending, low.z - mending},
-                              {high.x + mending, high.y + mending, high.z + mending}});
+            Shape& shape = shapes_.emplace_back();
+            shape.low = {low.x - mending, low.y - mending, low.z - mending};
+            shape.high = {high.x + mending, high.y + mending, high.z + mending};
+            for (std::size_t k = 0; k < 5; ++k) {
+                const Vec3 at = lattice_place(rounded, t[k % 3]);
+                for (std::size_t each = 0; each < 3; ++each) shape.at[each][k] = at[each];
+                shape.ids[k] = static_cast<std::int32_t>(t[k % 3]);
+            }
+            shape.axis = axis;
+            shape.turn = surface.facets[i].reversed ? -turn : turn;
         }
         groups_.push_back({facet, begin, static_cast<std::uint32_t>(triangles_.size()), no_index});
     }
@@ -258,6 +272,31 @@ void NearFacets::fill_groups(const Surface& surface, const RoundedPoints& rounde
         group.tree = static_cast<std::uint32_t>(trees_.size());
         trees_.emplace_back(corners, std::move(positions), mending, context);
     }
+}
+
+bool NearFacets::parts(const Shape& a, const Shape& b) const {
+    // Products of differences of 27 bits; these and two sums may round, each by less than 8.
+    const double rest = 2 * moved_ * moved_ + 32;
+    static_assert(exact::coordinate_bits == 26);
+    const int i = (a.axis + 1) % 3, j = (a.axis + 2) % 3;
+    const auto load = [](const auto* from, auto lanes) {
+        std::memcpy(&lanes, from, sizeof lanes);
+        return lanes;
+    };
+    const auto magnitude = [](const Reals& value) { return value < 0 ? -value : value; };
+    // A lane is an edge; the last one is the first again.
+    const Reals u = load(a.at[i], Reals{}), v = load(a.at[j], Reals{});
+    const Reals x = (load(a.at[i] + 1, Reals{}) - u) * a.turn, y = (load(a.at[j] + 1, Reals{}) - v) * a.turn;
+    const Reals room = moved_ * (magnitude(x) + magnitude(y)) + rest;
+    const Words from = load(a.ids, Words{}), to = load(a.ids + 1, Words{});
+    unsigned parting = 0xf;
+    for (int corner = 0; corner < 3 && parting; ++corner) {
+        const Reals p = b.at[i][corner] - u, q = b.at[j][corner] - v;
+        const auto outside = x * q - y * p + moved_ * (magnitude(p) + magnitude(q)) < -room;
+        const auto ends = __builtin_convertvector((from == b.ids[corner]) | (to == b.ids[corner]), Flags);
+        parting &= bits(outside) | bits(ends);
+    }
+    return parting != 0;
 }
 
 }  // namespace octavo::boolean

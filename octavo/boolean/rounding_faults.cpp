@@ -38,6 +38,8 @@ class RoundedTriangles {
                 if (a[i] == b[j]) ++shared, first = i, second = j, lone_a += i, lone_b += j;
         if (shared == 3) return true;
         if (apart(a, b) || apart(b, a)) return false;
+        for (int axis = 0; axis < 3; ++axis)
+            if (seen_apart(axis, a, b) || seen_apart(axis, b, a)) return false;
         if (shared == 2) return folded(a, 3 - lone_a, b[3 - lone_b]);
         if (shared == 1)
             return meets(a[(first + 1) % 3], a[(first + 2) % 3], b) ||
@@ -59,6 +61,22 @@ class RoundedTriangles {
             all = side;
         }
         return true;
+    }
+
+    /// Whether, seen along an axis, an edge of `a` has all corners of `b` that do not end it on its outer side.
+    bool seen_apart(int axis, const Triangle& a, const Triangle& b) const {
+        const std::array<RoundedPoints::Point, 3> at{rounded_[a[0]], rounded_[a[1]], rounded_[a[2]]};
+        const Sign turn = orient2d(axis, at[0], at[1], at[2]);
+        if (turn == Sign::zero) return false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            const bool parting = std::all_of(b.begin(), b.end(), [&](PointId corner) {
+                return corner == a[k] || corner == a[next] ||
+                       orient2d(axis, at[k], at[next], rounded_[corner]) == -turn;
+            });
+            if (parting) return true;
+        }
+        return false;
     }
 
     /// Whether `point` lies in the plane of `t` and on the same side of the edge opposite to corner k as that corner.
