@@ -295,14 +295,19 @@ Error in_file(Error error, const std::string& path) {
     return error;
 }
 
+Error in_its_file(Error error, const std::vector<std::string>& paths, const std::vector<std::string>& names) {
+    if (!error.place.operand || *error.place.operand >= paths.size()) return error;
+    const std::size_t operand = *error.place.operand;
+    error.place.operand.reset();
+    if (!names.empty()) error.sentence.insert(0, names[operand] + " ");
+    return in_file(std::move(error), paths[operand]);
+}
+
 Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths,
                   const std::vector<std::string>& names) {
+    if (error.place.operand) return in_its_file(std::move(error), paths, names);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const std::string prefix = noun + " " + std::to_string(i);
-        if (error.place.file == prefix) {
-            error.place.file = paths[i];
-            return error;
-        }
         for (const std::string& after : {prefix + ": ", prefix + " "}) {
             if (!error.sentence.starts_with(after)) continue;
             error.sentence.erase(0, after.size());

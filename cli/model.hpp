@@ -98,8 +98,12 @@ std::string rounding_text(double largest_displacement);
 /// The same error, with the file that it is about.
 Error in_file(Error error, const std::string& path);
 
-/// The same where the library knows its inputs by number: its sentence begins with "solid 3" or "operand 3", in place of
-/// which the file is told, and the input's name where it has one beside that of its file.
+/// The same where the library knows its inputs by number: that becomes the file, and the input's name where it has one
+/// beside that of its file.
+Error in_its_file(Error error, const std::vector<std::string>& paths,
+                  const std::vector<std::string>& names = {});
+
+/// The same for sentences that begin with "operand 3".
 Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths,
                   const std::vector<std::string>& names = {});
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -36,6 +37,12 @@ bool wants_color(const std::string& option, int file) {
     return isatty(file) && !(terminal && std::string_view(terminal) == "dumb");
 }
 
+/// An option of the library under the name that it has here: max_nodes is --max-nodes.
+std::string as_typed(std::string option) {
+    std::replace(option.begin(), option.end(), '_', '-');
+    return "--" + option;
+}
+
 ProgressStyle style_of(const CommonOptions& options) {
     if (options.quiet || options.progress == "none") return ProgressStyle::none;
     if (options.progress == "bar") return ProgressStyle::bar;
@@ -67,7 +74,7 @@ void Session::add_timing(const std::string& phase, double seconds) {
 
 int Session::finish(Result<ExitCode> outcome) {
     if (bar_) bar_->clear();
-    if (!outcome) outcome = with_faces_of_file(outcome.error(), polygon_of_triangle);
+    if (!outcome) outcome = in_words_of_users(outcome.error());
     print_messages(outcome);
     if (options.json && !stdout_taken) {
         print_json(outcome);
@@ -82,6 +89,11 @@ int Session::finish(Result<ExitCode> outcome) {
     return static_cast<int>(exit_code_of(outcome));
 }
 
+Error Session::in_words_of_users(Error error) const {
+    if (error.option) error.option = as_typed(std::move(*error.option));
+    return with_faces_of_file(std::move(error), polygon_of_triangle);
+}
+
 ExitCode Session::exit_code_of(const Result<ExitCode>& outcome) const {
     if (outcome) return *outcome;
     return usage_is_wrong_ ? ExitCode::usage : cli::exit_code_of(outcome.error().code);
@@ -94,6 +106,7 @@ Json Session::json_of(const Error& error) const {
     if (error.place.column) json["column"] = error.place.column;
     if (error.place.byte != Place::no_byte) json["byte"] = error.place.byte;
     if (!error.place.faces.empty()) json["faces"] = error.place.faces;
+    if (error.option) json["option"] = *error.option;
     return json;
 }
 

@@ -86,6 +86,7 @@ class Session {
 
   private:
     void add_timing(const std::string& phase, double seconds);
+    Error in_words_of_users(Error error) const;
     ExitCode exit_code_of(const Result<ExitCode>& outcome) const;
     Json json_of(const Error& error) const;
     void print_messages(const Result<ExitCode>& outcome) const;

@@ -184,7 +184,7 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     });
     if (!built) {
         if (options.inputs.size() == 1) return in_file(std::move(built).error(), options.inputs[0]);
-        return in_its_file(std::move(built).error(), "solid", options.inputs);
+        return in_its_file(std::move(built).error(), options.inputs);
     }
     const std::vector<std::string> names = names_of(options.inputs);
     warn_about(session, *built, names, options.inputs);

@@ -52,14 +52,6 @@ void warn_about(Session& session, const classic::BuildReport& report) {
             " left out");
 }
 
-/// The library names the limit, here it is an option.
-Error in_words_of_options(Error error, const OctreeOptions& options) {
-    const std::string limit = "(max-nodes)";
-    if (const std::size_t at = error.sentence.find(limit); at != std::string::npos)
-        error.sentence.replace(at, limit.size(), "(--max-nodes)");
-    return in_file(std::move(error), options.input);
-}
-
 Result<Grown> grow_from_mesh(Session& session, const Context& context, const OctreeOptions& options) {
     Result<io::ReadMesh> read = read_mesh(session, context, options.input, options.format);
     if (!read) return std::move(read).error();
@@ -77,7 +69,7 @@ Result<Grown> grow_from_mesh(Session& session, const Context& context, const Oct
     }
     Result<classic::Built> built =
         session.timed("build", [&] { return classic::build(snapped->mesh, building, context); });
-    if (!built) return in_words_of_options(std::move(built).error(), options);
+    if (!built) return in_file(std::move(built).error(), options.input);
     warn_about(session, built->report);
     return Grown{std::move(built->octree), built->report.peak_nodes, built->report.primitive_tests,
                  snapped->report.largest_displacement};
@@ -96,7 +88,7 @@ Result<Grown> grow_from_csg(Session& session, const Context& context, const Octr
         options.method == "classic" ? classic::CsgMethod::classic : classic::CsgMethod::top_down;
     Result<classic::CsgOctree> built =
         session.timed("build", [&] { return classic::build(file->expression, building, context); });
-    if (!built) return in_words_of_options(std::move(built).error(), options);
+    if (!built) return in_file(std::move(built).error(), options.input);
     return Grown{std::move(built->octree), built->stats.peak_nodes, built->stats.primitive_tests, 0};
 }
 

@@ -8,7 +8,9 @@ std::string Error::describe() const {
     if (place.line != 0) text += (text.empty() ? "line " : ":") + std::to_string(place.line);
     if (place.column != 0) text += ":" + std::to_string(place.column);
     if (!text.empty()) text += ": ";
+    if (place.operand) text += "operand " + std::to_string(*place.operand) + ": ";
     text += sentence;
+    if (option) text += " (" + *option + ")";
     if (place.byte != Place::no_byte) text += " (byte " + std::to_string(place.byte) + ")";
     if (!place.faces.empty()) {
         constexpr std::size_t most = 8;

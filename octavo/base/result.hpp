@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -37,14 +38,19 @@ struct Place {
     std::uint64_t byte = no_byte;                    ///< 0-based offset in the file
     static constexpr std::uint64_t no_byte = ~0ULL;  ///< `byte` is unknown
     std::vector<std::uint32_t> faces;
+    /// Which of several operands or solids, from 0; whoever knows them by a better name says that instead.
+    std::optional<std::uint32_t> operand = {};
 };
 
 struct Error {
     ErrorCode code = ErrorCode::internal;
     std::string sentence;  ///< what is wrong, without the place, without a final full stop
     Place place;
+    /// The option with another value of which the work would go on, by its name in the options of the function that failed
+    /// ("max_nodes"); empty when there is none. A program tells it by the name under which its users know it.
+    std::optional<std::string> option = {};
 
-    /// One line for people: `FILE:LINE:COLUMN: SENTENCE (facets 3, 17)`.
+    /// One line for people: `FILE:LINE:COLUMN: SENTENCE (max_nodes) (facets 3, 17)`.
     std::string describe() const;
 };
 

@@ -31,7 +31,7 @@ struct Prepared {
 };
 
 Error of_solid(Error error, std::size_t solid, std::size_t count) {
-    if (count > 1) error.place.file = "solid " + std::to_string(solid);
+    if (count > 1) error.place.operand = static_cast<std::uint32_t>(solid);
     return error;
 }
 

@@ -341,10 +341,11 @@ Result<ClassifiedCells> run(const SolidsProblem& problem, const char* phase, std
 }  // namespace
 
 Error too_many_cells(std::uint64_t max_cells) {
-    return {ErrorCode::limit,
-            "the octree has more than " + grouped(max_cells) +
-                " cells; ask for larger cells, or raise the limit (max-cells)",
-            {}};
+    return {
+        ErrorCode::limit,
+        "the octree has more than " + grouped(max_cells) + " cells; ask for larger cells, or raise the limit",
+        {},
+        "max_cells"};
 }
 
 Error too_many_sets() {

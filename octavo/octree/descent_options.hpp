@@ -30,8 +30,9 @@ struct DescentOptions {
 inline Error too_many_nodes(std::uint64_t max_nodes, int depth) {
     return {ErrorCode::limit,
             "the octree has more than " + grouped(max_nodes) + " nodes at depth " + std::to_string(depth) +
-                "; ask for less depth, or raise the limit (max-nodes)",
-            {}};
+                "; ask for less depth, or raise the limit",
+            {},
+            "max_nodes"};
 }
 
 }  // namespace octavo::octree

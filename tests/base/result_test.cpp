@@ -28,6 +28,12 @@ TEST(Result, DescribeNamesThePlace) {
     EXPECT_EQ(error.describe(), "a.off:12:4: expected 3 indices (facets 3, 17)");
 }
 
+TEST(Result, DescribeNamesTheOperandAndTheOption) {
+    Error error{ErrorCode::limit, "has more than 7 cells", {}, "max_cells"};
+    error.place.operand = 2;
+    EXPECT_EQ(error.describe(), "operand 2: has more than 7 cells (max_cells)");
+}
+
 TEST(ResultDeathTest, ReadingAValueThatIsNotThereStopsTheProgram) {
     EXPECT_DEATH(static_cast<void>(*half(3)), "the number is odd");
 }

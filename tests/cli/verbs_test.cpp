@@ -226,7 +226,10 @@ TEST_F(Verbs, OctreesOfTooManyNodesAreRefusedWithWhatToChange) {
     ASSERT_EQ(octavo("shape gear -o gear.stl").exit_code, 0);
     const Ran hexmesh = octavo("hexmesh gear.stl --level 17 --max-cells 50K");
     EXPECT_EQ(hexmesh.exit_code, 4) << hexmesh.err;
-    EXPECT_NE(hexmesh.err.find("max-cells"), std::string::npos);
+    EXPECT_NE(hexmesh.err.find("(--max-cells)"), std::string::npos) << hexmesh.err;
+    const nlohmann::json error = octavo("octree ball.csg --depth 21 --max-nodes 100K --json").json()["error"];
+    EXPECT_EQ(error["option"], "--max-nodes");
+    EXPECT_EQ(error["message"].get<std::string>().find("max"), std::string::npos) << error;
     for (const char* wrong : {"0", "K", "-5M", "12X", "nan", "1e30"}) {
         const Ran usage = octavo(std::string("octree cube.stl --max-nodes ") + wrong);
         EXPECT_EQ(usage.exit_code, 2) << wrong;

@@ -145,7 +145,7 @@ TEST(Build, SaysThatASurfaceIsInsideOut) {
     const Mesh solids[] = {mesh::cube(), inverted};
     const Result<Built> second = build(solids, {.level = 4});
     ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().place.file, "solid 1");
+    EXPECT_EQ(second.error().place.operand, 1U);
     EXPECT_EQ(second.error().sentence.rfind("the surface is inside out", 0), 0u);
 }
 
