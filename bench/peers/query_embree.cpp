@@ -85,7 +85,7 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
 
 }  // namespace
 
-std::vector<QueryAnswer> run_embree(const QueryJob& job) {
+std::vector<QueryAnswer> run_embree(const QueryJob& job, bool only_inside) {
     const Stopwatch watch;
     const Scene scene(job);
     const Usage build = watch.stop();
@@ -109,6 +109,7 @@ std::vector<QueryAnswer> run_embree(const QueryJob& job) {
             inside.inside[i] = leaves ? -1 : 1;
         }
     });
+    if (only_inside) return {inside};
     QueryAnswer distance{"Embree point query", build, 0, {}, std::vector<double>(job.points.size())};
     distance.nanoseconds = time_a_point(job.runs, job.points.size(), [&] {
         for (std::size_t i = 0; i < job.points.size(); ++i) {

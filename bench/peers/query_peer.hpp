@@ -37,7 +37,7 @@ struct QueryAnswer {
 /// Median CPU nanoseconds a point of calling `work()`, which answers `points` points.
 double time_a_point(int runs, std::size_t points, const std::function<void()>& work);
 
-std::vector<QueryAnswer> run_embree(const QueryJob& job);
+std::vector<QueryAnswer> run_embree(const QueryJob& job, bool only_inside);
 std::vector<QueryAnswer> run_cgal_queries(const QueryJob& job);
 
 }  // namespace octavo::bench

@@ -11,6 +11,7 @@
 
 #include <octavo/io/read.hpp>
 #include <octavo/mesh/measure.hpp>
+#include <octavo/octree/morton.hpp>
 #include <octavo/query/closest.hpp>
 #include <octavo/query/inside.hpp>
 
@@ -20,9 +21,9 @@
 // Inside and distance on one thread: Octavo against Embree and CGAL, on the same points in the same process. Prints
 // CPU nanoseconds a point, build times and memory as CSV, and how many answers differ from Octavo's.
 //
-//     octavo_query_peers MODEL|sphere:LEVEL [uniform|near] [POINTS=1000000] [RUNS=5] [FOLDER]
+//     octavo_query_peers MODEL|sphere:LEVEL [uniform|near][-sorted] [POINTS=1000000] [RUNS=5] [FOLDER|inside]
 //
-// FOLDER gets the arrays and Octavo's answers, for query.py, which adds peers from PyPI.
+// FOLDER gets the arrays and Octavo's answers, for query.py, which adds peers from PyPI. `inside` leaves distances out.
 //
 // Points: uniform in the bounding box, or near the surface (uniform by area, moved along the normal by up to 1 % of
 // the diagonal either way). `sphere:8` makes a concave star-shaped solid of 20 · 4^8 = 1.3 million triangles.
@@ -91,7 +92,19 @@ std::vector<std::array<float, 3>> points_for(const mesh::Mesh& mesh, bool near, 
     return points;
 }
 
-std::vector<QueryAnswer> run_octavo(const mesh::Mesh& mesh, const QueryJob& job) {
+/// In Morton order, as neighbours in a grid would be asked.
+void sort(std::vector<std::array<float, 3>>& points) {
+    const auto key = [](const std::array<float, 3>& p) {
+        // The model has diagonal 1 about the origin or beside it.
+        const auto cell = [](float x) {
+            return static_cast<std::uint32_t>(std::clamp(0.25 * (x + 2.0), 0.0, 0.999999) * 0x1p21);
+        };
+        return octree::interleave(cell(p[0]), cell(p[1]), cell(p[2]));
+    };
+    std::sort(points.begin(), points.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+}
+
+std::vector<QueryAnswer> run_octavo(const mesh::Mesh& mesh, const QueryJob& job, bool only_inside) {
     std::vector<Vec3> points;
     for (const auto& p : job.points) points.push_back({p[0], p[1], p[2]});
     Context one_thread;
@@ -118,6 +131,7 @@ std::vector<QueryAnswer> run_octavo(const mesh::Mesh& mesh, const QueryJob& job)
         answers.push_back(std::move(single));
         answers.push_back(std::move(batch));
     }
+    if (only_inside) return answers;
     for (const auto sign :
          {query::ClosestOptions::Sign::inside_negative, query::ClosestOptions::Sign::none}) {
         const bool is_signed = sign == query::ClosestOptions::Sign::inside_negative;
@@ -183,7 +197,8 @@ void dump_job(const std::string& folder, const QueryJob& job, const std::vector<
 
 int compare(int argc, char** argv) {
     if (argc < 2) {
-        std::fprintf(stderr, "usage: %s MODEL|sphere:LEVEL [uniform|near] [POINTS] [RUNS] [FOLDER]\n",
+        std::fprintf(stderr,
+                     "usage: %s MODEL|sphere:LEVEL [uniform|near][-sorted] [POINTS] [RUNS] [FOLDER|inside]\n",
                      argv[0]);
         return 2;
     }
@@ -193,23 +208,26 @@ int compare(int argc, char** argv) {
     for (const Vec3& v : mesh.vertices)
         job.vertices.push_back({static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
     job.triangles = mesh.triangles;
-    job.points = points_for(mesh, argc > 2 && std::string(argv[2]) == "near",
+    const std::string kind = argc > 2 ? argv[2] : "uniform";
+    const bool only_inside = argc > 5 && std::string(argv[5]) == "inside";
+    job.points = points_for(mesh, kind.rfind("near", 0) == 0,
                             argc > 3 ? static_cast<std::size_t>(std::atoll(argv[3])) : 1000000);
+    if (kind.size() > 7 && kind.substr(kind.size() - 7) == "-sorted") sort(job.points);
     if (argc > 4) job.runs = std::atoi(argv[4]);
     std::printf("# %s, %zu triangles, %zu points %s\n", argv[1], mesh.triangles.size(), job.points.size(),
-                argc > 2 ? argv[2] : "uniform");
-    std::vector<QueryAnswer> answers = run_octavo(mesh, job);
+                kind.c_str());
+    std::vector<QueryAnswer> answers = run_octavo(mesh, job, only_inside);
     const auto add = [&](std::vector<QueryAnswer> more) {
         for (QueryAnswer& answer : more) answers.push_back(std::move(answer));
     };
 #ifdef OCTAVO_WITH_EMBREE
-    add(run_embree(job));
+    add(run_embree(job, only_inside));
 #endif
 #ifdef OCTAVO_WITH_CGAL
-    add(run_cgal_queries(job));
+    if (!only_inside) add(run_cgal_queries(job));
 #endif
     print(answers);
-    if (argc > 5) dump_job(argv[5], job, answers);
+    if (argc > 5 && !only_inside) dump_job(argv[5], job, answers);
     return 0;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <octavo/query/cell_index.hpp>
+#include <octavo/query/leaf_record.hpp>
 
 namespace octavo::query {
 namespace {
@@ -17,20 +18,43 @@ int top_level_for(std::size_t leaves) {
 /// Walks the leaves once, in Morton order.
 class CellIndex::Builder {
   public:
-    Builder(CellIndex& index, std::span<const Item> items) : index_(index), items_(items) {}
+    Builder(CellIndex& index, std::span<const Item> items, std::span<const std::uint32_t> records)
+        : index_(index), items_(items), records_(records) {}
 
     void run() {
-        index_.top_level_ = top_level_for(items_.size());
-        const std::uint64_t cells = std::uint64_t{1} << (3 * index_.top_level_);
+        const int level = top_level_for(items_.size());
+        index_.top_level_ = level;
+        const std::uint64_t cells = std::uint64_t{1} << (3 * level);
         index_.top_.reserve(cells);
+        index_.words_.reserve(count_words());
+        Entry last, kept;  // Coarse leaves fill several cells in a row.
         for (std::uint64_t cell = 0; cell < cells; ++cell) {
-            const Entry entry = entry_of(cell, index_.top_level_);
-            index_.top_.push_back(static_cast<std::uint32_t>(entry.kind) << 30 | entry.value);
+            const Entry entry = entry_of(cell, level);
+            if (!(entry == last)) {
+                last = kept = entry;
+                if (entry.kind == Kind::gray) kept.value = keep_record(entry.value);
+            }
+            index_.top_.push_back(static_cast<std::uint32_t>(kept.kind) << 30 | kept.value);
         }
-        index_.bricks_.shrink_to_fit();
     }
 
   private:
+    /// Of all bricks and records, so that they never have to move while they grow.
+    std::size_t count_words() const {
+        std::size_t words = records_.size();
+        for (std::size_t i = 0; i < items_.size(); ++i) {
+            const Item& item = items_[i];
+            if (item.entry.kind == Kind::gray && item.key.level() > index_.top_level_) ++words;
+            // A brick begins with its first leaf, and all but those of the table have a word in another.
+            for (int level = index_.top_level_; level < item.key.level(); level += brick_levels) {
+                const int shift = 3 * (octree::max_level - level);
+                if (i == 0 || item.key.code() >> shift != items_[i - 1].key.code() >> shift)
+                    words += head_words + (level > index_.top_level_);
+            }
+        }
+        return words;
+    }
+
     /// The cell of this level with this code; the next item lies in it or fills it.
     Entry entry_of(std::uint64_t cell, int level) {
         const Item& item = items_[next_];
@@ -51,29 +75,42 @@ class CellIndex::Builder {
     }
 
     std::uint32_t write(const std::array<Entry, brick_cells>& entries) {
-        const auto at = static_cast<std::uint32_t>(index_.bricks_.size());
+        auto& words = index_.words_;
+        const auto at = static_cast<std::uint32_t>(words.size());
         std::array<std::uint64_t, 3> masks{};
-        index_.bricks_.resize(at + head_words);
+        words.resize(at + head_words);
         for (std::size_t i = 0; i < brick_cells; ++i) {
             const Entry& entry = entries[i];
             const auto kind = static_cast<std::uint64_t>(entry.kind);
             masks[0] |= (kind & 1) << i;
             masks[1] |= (kind >> 1) << i;
-            if (kind < 2 ||
-                (i > 0 && entries[i - 1].kind == entry.kind && entries[i - 1].value == entry.value))
-                continue;
+            if (kind < 2 || (i > 0 && entries[i - 1] == entry)) continue;
             masks[2] |= std::uint64_t{1} << i;
-            index_.bricks_.push_back(entry.value);
+            words.push_back(entry.value);
         }
-        std::memcpy(index_.bricks_.data() + at, masks.data(), sizeof masks);
+        std::memcpy(words.data() + at, masks.data(), sizeof masks);
+        std::size_t word = at + head_words;
+        for (std::uint64_t begun = masks[2]; begun != 0; begun &= begun - 1, ++word)
+            if (entries[static_cast<std::size_t>(std::countr_zero(begun))].kind == Kind::gray)
+                words[word] = keep_record(words[word]);
+        return at;
+    }
+
+    std::uint32_t keep_record(std::uint32_t record) {
+        const std::uint32_t* words = records_.data() + record;
+        const auto at = static_cast<std::uint32_t>(index_.words_.size());
+        index_.words_.insert(index_.words_.end(), words, words + LeafRecord::size_of(words));
         return at;
     }
 
     CellIndex& index_;
     std::span<const Item> items_;
+    std::span<const std::uint32_t> records_;
     std::size_t next_ = 0;
 };
 
-CellIndex::CellIndex(std::span<const Item> items) { Builder(*this, items).run(); }
+CellIndex::CellIndex(std::span<const Item> items, std::span<const std::uint32_t> records) {
+    Builder(*this, items, records).run();
+}
 
 }  // namespace octavo::query

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <octavo/octree/morton.hpp>
+#include <octavo/query/huge_page_allocator.hpp>
 
 // From a place to the leaf of an octree that holds it, in few loads and few bytes.
 //
@@ -16,10 +17,12 @@
 // one a level. Idea: a dense table of the top levels, and below it bricks of 4×4×4 cells. Most cells of a brick are
 // white or black, and a leaf of a coarser level fills eight in a row, so a brick is three masks of 64 bits and a word for
 // each leaf or brick in it. Two masks tell the kind of each cell, the third where a new word begins; which word is a
-// cell's is a count of its bits:
+// cell's is a count of its bits. The records of its gray leaves follow the brick, so that they arrive with it:
 //
-//     brick:  │ A │ B │ C │ word │ word │ …      kind of cell i = bits i of A and B: 00 white, 10 black, 01 gray, 11 brick
+//     brick:  │ A │ B │ C │ word │ word │ … │ record │ record │ …
 //             └ 8 bytes each ┘ one for each bit of C
+//
+//     kind of cell i = bits i of A and B: 00 white, 10 black, 01 gray, 11 brick
 //
 // Invariant: every place has one leaf. Cost: 24 bytes a brick and 4 a leaf, a quarter of a word for every cell, for two
 // more instructions a level.
@@ -30,10 +33,11 @@ class CellIndex {
   public:
     enum class Kind : std::uint8_t { white = 0, black = 1, gray = 2, brick = 3 };
 
-    /// A cell's kind and, for a gray one, what the builder was told for it.
+    /// A cell's kind and, for a gray one, where its record begins.
     struct Entry {
         Kind kind = Kind::white;
         std::uint32_t value = 0;
+        friend bool operator==(const Entry&, const Entry&) = default;
     };
 
     /// A leaf to index.
@@ -43,8 +47,9 @@ class CellIndex {
     };
 
     CellIndex() = default;
-    /// Leaves in Morton order that fill the universe; values below 2^30.
-    explicit CellIndex(std::span<const Item> items);
+    /// Leaves in Morton order that fill the universe, and the records that the gray ones point to (leaf_record.hpp), which
+    /// are copied. Twice the leaves and the words of the records must be fewer than 2^30.
+    CellIndex(std::span<const Item> items, std::span<const std::uint32_t> records);
 
     /// Loads of one search that depend on each other: `top`, then `below` for as long as the kind is brick, with
     /// `level` growing by `brick_levels` from `top_level()`. `code` is that of the place, of octree::max_level.
@@ -56,7 +61,7 @@ class CellIndex {
         // Bricks may reach below the last level of a code, which then goes on with zeros.
         const int shift = 3 * (octree::max_level - level - brick_levels);
         const std::uint64_t cell = (shift >= 0 ? code >> shift : code << -shift) & (brick_cells - 1);
-        const std::uint32_t* words = bricks_.data() + brick.value;
+        const std::uint32_t* words = words_.data() + brick.value;
         std::array<std::uint64_t, 3> masks;
         std::memcpy(masks.data(), words, sizeof masks);
         const std::uint64_t a = masks[0] >> cell & 1, b = masks[1] >> cell & 1;
@@ -67,10 +72,14 @@ class CellIndex {
     }
     Entry find(std::uint64_t code) const {
         Entry entry = top(code);
-        for (int level = top_level_; entry.kind == Kind::brick; level += brick_levels)
+        for (int level = top_level_; entry.kind == Kind::brick; level += brick_levels) {
+            prefetch_records(entry);
             entry = below(entry, code, level);
+        }
         return entry;
     }
+    /// Of a gray entry.
+    const std::uint32_t* record(Entry gray) const { return words_.data() + gray.value; }
 
     static constexpr int brick_levels = 2;
     int top_level() const { return top_level_; }
@@ -78,11 +87,11 @@ class CellIndex {
         __builtin_prefetch(&top_[code >> (3 * (octree::max_level - top_level_))]);
     }
     void prefetch_brick(Entry brick) const {
-        __builtin_prefetch(bricks_.data() + brick.value);
-        __builtin_prefetch(bricks_.data() + brick.value + 16);
+        __builtin_prefetch(words_.data() + brick.value);
+        __builtin_prefetch(words_.data() + brick.value + 16);
     }
 
-    std::size_t memory_bytes() const { return 4 * (top_.capacity() + bricks_.capacity()); }
+    std::size_t memory_bytes() const { return 4 * (top_.capacity() + words_.capacity()); }
 
   private:
     static constexpr std::uint64_t brick_cells = std::uint64_t{1} << (3 * brick_levels);
@@ -91,10 +100,18 @@ class CellIndex {
 
     class Builder;
 
+    void prefetch_records(Entry brick) const {
+        const std::uint32_t* words = words_.data() + brick.value;
+        for (std::size_t line = 1; line < 6; ++line) __builtin_prefetch(words + 16 * line);
+    }
+
+    template <class T>
+    using Array = std::vector<T, HugePageAllocator<T>>;
+
     int top_level_ = 0;
-    std::vector<std::uint32_t>
-        top_;  ///< the cells of `top_level_` in Morton order, kind in the highest two bits
-    std::vector<std::uint32_t> bricks_;  ///< one after the other; children before their parent
+    Array<std::uint32_t> top_;  ///< the cells of `top_level_` in Morton order, kind in the highest two bits
+    Array<std::uint32_t>
+        words_;  ///< bricks with their records, children before their parent; records of the table
 };
 
 }  // namespace octavo::query

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include <octavo/base/parallel.hpp>
 #include <octavo/octree/morton.hpp>
@@ -14,6 +15,16 @@ namespace {
 
 inline void prefetch(const void* address) { __builtin_prefetch(address); }
 
+/// Rounds down what is below 2^53. Where floor is no instruction, calling it costs more than the rest of finding a place.
+inline double floor_of(double x) {
+#ifdef __SSE4_1__
+    return std::floor(x);
+#else
+    const auto towards_zero = static_cast<double>(static_cast<std::int64_t>(x));
+    return towards_zero > x ? towards_zero - 1 : towards_zero;
+#endif
+}
+
 }  // namespace
 
 /// A point in the universe: where it is and the Morton code of its cell of the last level.
@@ -23,20 +34,21 @@ struct InsideQuery::Located {
 };
 
 /// False for points outside the universe, which are outside the solid; NaN and infinity among them.
-bool InsideQuery::place(Vec3 point, Located& located) const {
-    located.place.world = point;
+inline bool InsideQuery::place(Vec3 point, Located& located) const {
+    LatticePlace& place = located.place;
+    place.world = point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double world = point[static_cast<int>(axis)];
         // Exact, but for underflow to zero, whose sign must not be lost, and overflow, which is outside anyway.
         const double scaled = world * inverse_unit_;
-        const double floor = scaled == 0 && world < 0 ? -1.0 : std::floor(scaled);
-        if (!(std::fabs(floor) <= 0x1p53)) return false;
+        if (!(std::fabs(scaled) <= 0x1p53)) return false;
+        const double floor = scaled == 0 && world < 0 ? -1.0 : floor_of(scaled);
         const std::int64_t whole = static_cast<std::int64_t>(floor) - lattice_.origin()[axis];
         if (whole < 0 || whole >= exact::universe_side) return false;
-        located.place.whole[axis] = static_cast<std::int32_t>(whole);
-        located.place.part[axis] = scaled - floor;
+        place.whole[axis] = static_cast<std::int32_t>(whole);
+        place.part[axis] = scaled - floor;
     }
-    const auto& w = located.place.whole;
+    const auto& w = place.whole;
     located.code = octree::CellKey::at({w[0], w[1], w[2]}, octree::max_level).code();
     return true;
 }
@@ -60,7 +72,7 @@ Side InsideQuery::operator()(Vec3 point) const {
     const CellIndex::Entry entry = cells_.find(located.code);
     if (entry.kind != CellIndex::Kind::gray)
         return entry.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
-    return test(LeafRecord::at(leaves_.data() + entry.value), located.place);
+    return test(LeafRecord::at(cells_.record(entry)), located.place);
 }
 
 /// Answers up to `block_size` points side by side: each round makes one load for every point that is still under way
@@ -91,7 +103,7 @@ void InsideQuery::answer_block(std::span<const Vec3> points, std::span<Side> sid
                     active[still++] = i;
                     break;
                 case CellIndex::Kind::gray:
-                    prefetch(leaves_.data() + entries[i].value);
+                    prefetch(cells_.record(entries[i]));
                     in_gray[gray_count++] = i;
                     break;
                 default:
@@ -102,27 +114,46 @@ void InsideQuery::answer_block(std::span<const Vec3> points, std::span<Side> sid
     }
     std::array<LeafRecord, block_size> leaves;
     for (std::size_t k = 0; k < gray_count; ++k) {
-        leaves[k] = LeafRecord::at(leaves_.data() + entries[in_gray[k]].value);
+        leaves[k] = LeafRecord::at(cells_.record(entries[in_gray[k]]));
         for (const std::uint32_t facet : leaves[k].facets) prefetch(&facets_[facet]);
     }
     for (std::size_t k = 0; k < gray_count; ++k)
         sides[in_gray[k]] = test(leaves[k], located[in_gray[k]].place);
 }
 
-std::vector<Side> InsideQuery::operator()(std::span<const Vec3> points, const Context& context) const {
+template <class Point>
+std::vector<Side> InsideQuery::answer(std::span<const Point> points, const Context& context) const {
     std::vector<Side> sides(points.size(), Side::outside);
     parallel_chunks(context, points.size(), 128 * block_size, [&](std::size_t begin, std::size_t end) {
         for (std::size_t first = begin; first < end; first += block_size) {
             const std::size_t count = std::min(block_size, end - first);
-            answer_block(points.subspan(first, count), std::span(sides).subspan(first, count));
+            const std::span<Side> block_sides = std::span(sides).subspan(first, count);
+            if constexpr (std::is_same_v<Point, Vec3>) {
+                answer_block(points.subspan(first, count), block_sides);
+            } else {
+                std::array<Vec3, block_size> block;
+                for (std::size_t i = 0; i < count; ++i) {
+                    const Point& p = points[first + i];
+                    block[i] = {p[0], p[1], p[2]};
+                }
+                answer_block(std::span(block).first(count), block_sides);
+            }
         }
     });
     return sides;
 }
 
+std::vector<Side> InsideQuery::operator()(std::span<const Vec3> points, const Context& context) const {
+    return answer(points, context);
+}
+
+std::vector<Side> InsideQuery::operator()(std::span<const std::array<float, 3>> points,
+                                          const Context& context) const {
+    return answer(points, context);
+}
+
 std::size_t InsideQuery::memory_bytes() const {
-    return cells_.memory_bytes() + leaves_.capacity() * sizeof(std::uint32_t) +
-           facets_.capacity() * sizeof(classic::FacetCorners);
+    return cells_.memory_bytes() + facets_.capacity() * sizeof(classic::FacetCorners);
 }
 
 Result<std::vector<Side>> contains(const mesh::Mesh& mesh, std::span<const Vec3> points,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,7 +25,8 @@
 // change the winding number (simulation of simplicity, see classic/crossing.hpp); the signs are those of linear forms
 // at double points, by a filter first and exactly where that fails.
 //
-// Locating is made of few dependent loads (cell_index.hpp), and a leaf is one record (leaf_record.hpp). A batch runs many points through these loads side by side, so that their cache misses overlap.
+// Locating is made of few dependent loads (cell_index.hpp), and a leaf is one record (leaf_record.hpp) beside its brick.
+// A batch runs many points through these loads side by side, so that their cache misses overlap.
 //
 // Rules at the rim: a point with an infinite coordinate is outside; one with a NaN lies nowhere and is reported as
 // outside too.
@@ -63,6 +65,9 @@ class InsideQuery {
 
     /// The same for many points, in their order; parallel, and faster a point. Cancelled: the rest says outside.
     std::vector<Side> operator()(std::span<const Vec3> points, const Context& context = {}) const;
+    /// Floats are doubles exactly.
+    std::vector<Side> operator()(std::span<const std::array<float, 3>> points,
+                                 const Context& context = {}) const;
 
     const exact::Lattice& lattice() const { return lattice_; }
     std::size_t memory_bytes() const;
@@ -76,14 +81,15 @@ class InsideQuery {
     bool place(Vec3 point, Located& located) const;
     Side test(const LeafRecord& leaf, const LatticePlace& place) const;
     void answer_block(std::span<const Vec3> points, std::span<Side> sides) const;
+    template <class Point>
+    std::vector<Side> answer(std::span<const Point> points, const Context& context) const;
 
     exact::Lattice lattice_;
     double inverse_unit_ = 1;
-    CellIndex cells_;                    ///< of a gray one: where its record begins
-    std::vector<std::uint32_t> leaves_;  ///< records, in Morton order
+    CellIndex cells_;
     /// In the order in which the leaves name them, so that those of one place lie side by side; one more after the
     /// last, because they are read in words of 16 bytes.
-    std::vector<classic::FacetCorners> facets_;
+    std::vector<classic::FacetCorners, HugePageAllocator<classic::FacetCorners>> facets_;
 };
 
 /// One-off: builds an InsideQuery and asks it. Worth it from some hundred points on. Errors: as build, while asking too.

@@ -141,10 +141,11 @@ class InsideProblem {
 };
 
 /// Numbers the facets in the order in which the records name them, and tells the records how far their facets reach.
-std::vector<classic::FacetCorners> take_facets(LeafList& leaves, std::span<const Facet> facets) {
+template <class Array>
+Array take_facets(LeafList& leaves, std::span<const Facet> facets) {
     constexpr std::uint32_t unnamed = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> number(facets.size(), unnamed);
-    std::vector<classic::FacetCorners> ordered;
+    Array ordered;
     ordered.reserve(facets.size() + 1);
     for (const CellIndex::Item& item : leaves.items) {
         if (item.entry.kind != CellIndex::Kind::gray) continue;
@@ -190,17 +191,16 @@ Result<InsideQuery> InsideQuery::build(const mesh::LatticeMesh& mesh, const Insi
     descent.phase = "inside";
     Result<LeafList> leaves = octree::descend(InsideProblem(*facets, options), context, descent);
     if (!leaves) return leaves.error();
-    // Values of the index have 30 bits; a brick has 70 words at most, and there are fewer bricks than leaves.
-    if (leaves->records.size() >= std::size_t{1} << 30 || leaves->items.size() >= (std::size_t{1} << 30) / 70)
+    // Values of the index have 30 bits. A brick has six words and stands for a split cell of its own, of which there are a
+    // seventh of the leaves; a leaf has one word and its record.
+    if (leaves->records.size() + 2 * leaves->items.size() >= std::size_t{1} << 30)
         return Error{ErrorCode::limit, "the inside query has more leaves than it can number", {}};
 
     InsideQuery query;
     query.lattice_ = mesh.lattice;
     query.inverse_unit_ = 1 / mesh.lattice.unit();
-    query.facets_ = take_facets(*leaves, *facets);
-    query.cells_ = CellIndex(leaves->items);
-    query.leaves_ = std::move(leaves->records);
-    query.leaves_.shrink_to_fit();
+    query.facets_ = take_facets<decltype(facets_)>(*leaves, *facets);
+    query.cells_ = CellIndex(leaves->items, leaves->records);
     return query;
 }
 

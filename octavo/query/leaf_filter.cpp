@@ -76,7 +76,7 @@ inline Count count_path(const FacetLanes& facets, double extent, const std::arra
 }  // namespace
 
 std::optional<int> winding_change(std::span<const std::uint32_t> references,
-                                  const std::vector<FacetCorners>& facets,
+                                  std::span<const FacetCorners> facets,
                                   const std::array<std::int32_t, 3>& low, double extent,
                                   const std::array<double, 3>& offset) {
     LaneFlags change{};

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include <octavo/classic/facet.hpp>
 
@@ -26,7 +25,7 @@ namespace octavo::query {
 /// facets cause it; none when rounding leaves a doubt, as for every point on a facet. `extent` is L.
 /// Four bytes after the last facet must be readable.
 std::optional<int> winding_change(std::span<const std::uint32_t> references,
-                                  const std::vector<classic::FacetCorners>& facets,
+                                  std::span<const classic::FacetCorners> facets,
                                   const std::array<std::int32_t, 3>& low, double extent,
                                   const std::array<double, 3>& offset);
 

@@ -35,6 +35,10 @@ struct LeafRecord {
         leaf.facets = {words, count};
         return leaf;
     }
+    /// How many words a record has.
+    static std::size_t size_of(const std::uint32_t* record) {
+        return head_words(*record) + at(record).facets.size();
+    }
     /// The words of this record that come before its facets.
     static std::size_t head_words(std::uint32_t head) { return head >> 10 & 1 ? 3 : 1; }
 

@@ -144,7 +144,7 @@ int change_between(const MixedPoint& from, const MixedPoint& to, const FacetCorn
 
 LeafAnswer test_in_leaf(const LatticePlace& place, const std::array<std::int32_t, 3>& low,
                         std::int32_t winding, std::span<const std::uint32_t> references,
-                        const std::vector<FacetCorners>& facets, const exact::Lattice& lattice) {
+                        std::span<const FacetCorners> facets, const exact::Lattice& lattice) {
     const MixedPoint start{place, lattice, low, 0}, after_x{place, lattice, low, 1},
         after_y{place, lattice, low, 3}, point{place, lattice, low, 7};
     for (const std::uint32_t reference : references) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <octavo/base/vec3.hpp>
 #include <octavo/classic/facet.hpp>
@@ -32,6 +31,6 @@ struct LeafAnswer {
 /// `winding` is that of the displaced low corner.
 LeafAnswer test_in_leaf(const LatticePlace& place, const std::array<std::int32_t, 3>& low,
                         std::int32_t winding, std::span<const std::uint32_t> references,
-                        const std::vector<classic::FacetCorners>& facets, const exact::Lattice& lattice);
+                        std::span<const classic::FacetCorners> facets, const exact::Lattice& lattice);
 
 }  // namespace octavo::query

@@ -230,6 +230,25 @@ TEST(InsideQuery, RefusesOpenSurfacesAndClosesThemOnRequest) {
     EXPECT_EQ(query({5e6, 5e6, 60000001}), Side::outside);
 }
 
+TEST(InsideQuery, FloatPointsAreTheSameDoubles) {
+    const mesh::Mesh cube = mesh::box({0, 0, 0}, {1, 1, 1});
+    const auto query = InsideQuery::build(cube);
+    ASSERT_TRUE(query.has_value());
+    std::vector<std::array<float, 3>> floats;
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> unit(-0.5F, 1.5F);
+    for (int i = 0; i < 1000; ++i) floats.push_back({unit(random), unit(random), unit(random)});
+    floats.push_back({0.5F, 0.5F, 1});
+    floats.push_back({0.5F, 0.5F, std::nextafter(1.0F, 0.0F)});
+    floats.push_back({std::numeric_limits<float>::quiet_NaN(), 0, 0});
+    std::vector<Vec3> doubles;
+    for (const auto& p : floats) doubles.push_back({p[0], p[1], p[2]});
+    const std::vector<Side> sides = (*query)(floats);
+    EXPECT_EQ(sides, (*query)(doubles));
+    EXPECT_EQ(sides[1000], Side::on);
+    EXPECT_EQ(sides[1001], Side::inside);
+}
+
 TEST(InsideQuery, GivesTheSameAnswersForAnyNumberOfThreads) {
     const mesh::LatticeMesh ball = tests::sphere({33000001, 33333333, 33500007}, 30000000, 6);
     const InsideQuery query = *InsideQuery::build(ball, {}, with_threads(1));

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+// Memory for arrays that are looked up at random places.
+//
+// With pages of 4 KiB nearly every such look-up beyond some megabytes misses the TLB too, and walking the page table costs
+// as much as the load itself. Where the system has pages of 2 MiB for those who ask (Linux does), arrays of that size
+// ask for them. Only whole large pages are asked for, so an array takes no more memory than before.
+
+namespace octavo::query {
+
+template <class T>
+struct HugePageAllocator {
+    using value_type = T;
+
+    HugePageAllocator() = default;
+    template <class Other>
+    HugePageAllocator(const HugePageAllocator<Other>&) {}
+
+    T* allocate(std::size_t count) {
+        const std::size_t bytes = count * sizeof(T);
+        if (bytes < page) return static_cast<T*>(::operator new(bytes));
+        void* memory = nullptr;
+        if (posix_memalign(&memory, page, bytes) != 0) throw std::bad_alloc();
+#ifdef __linux__
+        madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // Refused, it is only slower.
+#endif
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t count) {
+        if (count * sizeof(T) < page)
+            ::operator delete(memory);
+        else
+            std::free(memory);
+    }
+
+    template <class Other>
+    friend bool operator==(const HugePageAllocator&, const HugePageAllocator<Other>&) {
+        return true;
+    }
+
+  private:
+    static constexpr std::size_t page = std::size_t{2} << 20;
+};
+
+}  // namespace octavo::query
