@@ -55,6 +55,12 @@ class Builder {
         : tree_(tree), options_(options), context_(context) {}
 
     Status run() {
+        if (options_.coalescing == Coalescing::mean) {
+            auto split =
+                split_by_mean(tree_.mesh, tree_.frame, options_.depth, options_.least_mean, context_);
+            if (!split) return std::move(split).error();
+            split_ = std::move(*split);
+        }
         std::vector<Part> parts(1);
         {
             std::vector<mesh::FaceIndex> all(tree_.mesh.triangles.size());
@@ -138,7 +144,7 @@ class Builder {
         part.planes.insert(part.planes.end(), planes.begin(), planes.end());
         const double volume =
             envelope.volume() / (Polytope::cell_side * Polytope::cell_side * Polytope::cell_side);
-        if (triangles.size() <= options_.leaf_triangles || cell.level == options_.depth) {
+        if (is_leaf(cell, triangles.size())) {
             part.nodes.push_back(Node::gray);
             part.gray_volume += volume;
             part.leaf_counts.push_back(static_cast<std::uint32_t>(triangles.size()));
@@ -152,6 +158,19 @@ class Builder {
         part.open.push_back(
             {cell, part.open_triangles.size(), triangles.size(), winding_at_low, std::move(envelope)});
         part.open_triangles.insert(part.open_triangles.end(), triangles.begin(), triangles.end());
+    }
+
+    bool is_leaf(const Cell& cell, std::size_t triangles) const {
+        if (cell.level == options_.depth) return true;
+        switch (options_.coalescing) {
+            case Coalescing::count:
+                return triangles <= options_.leaf_triangles;
+            case Coalescing::mean:
+                return !std::binary_search(split_.begin(), split_.end(), cell.key());
+            case Coalescing::none:
+                break;
+        }
+        return false;
     }
 
     SelectionOptions selection(int level) const {
@@ -244,6 +263,7 @@ class Builder {
     BpOctree& tree_;
     const BuildOptions& options_;
     const Context& context_;
+    std::vector<octree::CellKey> split_;  ///< for Coalescing::mean
     std::uint64_t splits_ = 0;
     double settled_volume_ = 0;  ///< of leaves and black cells on the levels so far
     std::mutex pool_mutex_;
@@ -270,6 +290,7 @@ mesh::LatticeMesh without_unused(mesh::LatticeMesh mesh) {
 Result<BpOctree> build(const mesh::LatticeMesh& mesh, const BuildOptions& options, const Context& context) {
     OCTAVO_CHECK(options.depth >= 0 && options.depth <= max_depth, "the depth of a BP-octree is 0 to 18");
     OCTAVO_CHECK(options.leaf_triangles >= 1, "a leaf holds at least one triangle");
+    OCTAVO_CHECK(options.least_mean > 0, "means of triangles are positive");
     if (mesh.triangles.empty()) return Error{ErrorCode::bad_input, "the mesh has no facets", {}};
     BpOctree tree;
     tree.mesh = without_unused(mesh::weld(mesh));

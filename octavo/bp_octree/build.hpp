@@ -3,6 +3,7 @@
 
 #include <octavo/base/context.hpp>
 #include <octavo/bp_octree/bp_octree.hpp>
+#include <octavo/bp_octree/coalescing.hpp>
 #include <octavo/bp_octree/k_medoids.hpp>
 
 // Builds a BP-octree level by level.
@@ -28,8 +29,12 @@ enum class PlaneChoice : std::uint8_t {
 };
 
 struct BuildOptions {
-    /// A cell with at most this many triangles is a leaf.
+    /// What makes a cell a leaf above `depth`.
+    Coalescing coalescing = Coalescing::count;
+    /// For Coalescing::count: a cell with at most this many triangles is a leaf.
     std::size_t leaf_triangles = 50;
+    /// For Coalescing::mean.
+    double least_mean = 20;
     /// Cells of this level are leaves in any case; at most max_depth.
     int depth = 9;
     PlaneChoice planes = PlaneChoice::greedy;
