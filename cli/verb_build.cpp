@@ -16,15 +16,19 @@ namespace octavo::cli {
 namespace {
 
 struct BuildOptions {
-    std::string input, output, format, quality = "normal", planes = "greedy";
+    std::string input, output, format, quality = "normal", planes = "greedy", coalesce = "count";
     int depth = 9, leaf_triangles = 50;
-    double gain = 1e-3, part = 0.01;
+    double gain = 1e-3, part = 0.01, leaf_mean = 20;
     bool certify = false;
 };
 
 bp_octree::BuildOptions building(const BuildOptions& options) {
     bp_octree::BuildOptions building;
     building.depth = options.depth;
+    building.coalescing = options.coalesce == "mean"   ? bp_octree::Coalescing::mean
+                          : options.coalesce == "none" ? bp_octree::Coalescing::none
+                                                       : bp_octree::Coalescing::count;
+    building.least_mean = options.leaf_mean;
     building.leaf_triangles = static_cast<std::size_t>(options.leaf_triangles);
     building.quality = options.quality == "fast" ? bp_octree::Quality::fast : bp_octree::Quality::normal;
     building.planes =
@@ -63,11 +67,11 @@ Result<ExitCode> build(Session& session, const BuildOptions& options) {
             session.timed("write", [&] { return bp_octree::write_bpo(options.output, bytes, context); });
         if (!written) return std::move(written).error();
     }
-    const auto to_level = bp_octree::bytes_to_level(bytes);
-    session.result = json_of(*tree, *to_level, bytes.size());
+    const BpOctreeFacts facts = facts_of(*tree, bytes);
+    session.result = json_of(facts);
     session.result["largest_displacement"] = surface->largest_displacement;
     if (options.certify) session.result["certified"] = true;
-    session.text = text_of(*tree, *to_level, bytes.size()) + rounding_text(surface->largest_displacement);
+    session.text = text_of(facts) + rounding_text(surface->largest_displacement);
     if (options.certify) session.text += "certified  every colour, winding number and plane\n";
     return ExitCode::ok;
 }
@@ -90,6 +94,16 @@ void add_build(Program& program) {
     verb->add_option("--leaf-triangles", options->leaf_triangles,
                      "Cells with at most this many triangles are not split")
         ->check(whole_number(1, 1000000))
+        ->type_name("N")
+        ->capture_default_str();
+    take_one_of(
+        verb->add_option("--coalesce", options->coalesce,
+                         "What makes cells leaves above --depth: their number of triangles, the mean of "
+                         "siblings, or nothing"),
+        {"count", "mean", "none"});
+    verb->add_option("--leaf-mean", options->leaf_mean,
+                     "For --coalesce mean: siblings are joined until they have so many triangles on average")
+        ->check(check_positive)
         ->type_name("N")
         ->capture_default_str();
     take_one_of(

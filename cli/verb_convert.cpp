@@ -81,8 +81,12 @@ double scale_to(io::ReadMesh& read, const std::string& unit) {
     return scale;
 }
 
-/// The envelopes of one level of a BP-octree.
-Result<io::ReadMesh> read_envelopes(Session& session, const Context& context, const ConvertOptions& options) {
+/// The envelopes of one level of a BP-octree, and how many bytes of its file they took.
+struct Envelopes {
+    io::ReadMesh read;
+    std::uint64_t bytes_read = 0;
+};
+Result<Envelopes> read_envelopes(Session& session, const Context& context, const ConvertOptions& options) {
     bp_octree::ReadBpoOptions reading;
     reading.levels = *options.level;
     reading.partial = bp_octree::ReadBpoOptions::Partial::accept;
@@ -92,44 +96,58 @@ Result<io::ReadMesh> read_envelopes(Session& session, const Context& context, co
         session.warn(fmt::format("the deepest level is {}; that is what is written", file->tree.deepest()));
     const bp_octree::ToMeshOptions drawing{.level = *options.level,
                                            .cell_faces = !options.without_cell_faces};
-    io::ReadMesh read;
-    read.mesh = session.timed("to_mesh", [&] { return bp_octree::to_mesh(file->tree, drawing, context); });
+    Envelopes envelopes;
+    envelopes.bytes_read = file->bytes_read;
+    envelopes.read.mesh =
+        session.timed("to_mesh", [&] { return bp_octree::to_mesh(file->tree, drawing, context); });
     if (context.cancelled()) return Context::cancelled_error();
-    return read;
+    return envelopes;
 }
 
-Result<ExitCode> convert_surface(Session& session, const Context& context, const ConvertOptions& options,
-                                 const std::string& format) {
-    Result<io::ReadMesh> read = options.level ? read_envelopes(session, context, options)
-                                              : read_surface(session, context, options.input, options.from);
-    if (!read) return std::move(read).error();
-    if (!options.unit.empty() && format != "3mf" && read->unit.empty())
+Result<ExitCode> write_surface(Session& session, const Context& context, const ConvertOptions& options,
+                               const std::string& format, io::ReadMesh read) {
+    if (!options.unit.empty() && format != "3mf" && read.unit.empty())
         return unit_is_useless(session, options, format);
-    const std::string stated = read->unit;
-    const double scale = scale_to(*read, options.unit);
+    const std::string stated = read.unit;
+    const double scale = scale_to(read, options.unit);
     io::WriteOptions writing{.format = format, .encoding = encoding_of(options.encoding)};
     if (!options.unit.empty()) {
         writing.unit = options.unit;
-    } else if (!read->unit.empty()) {
-        writing.unit = read->unit;
+    } else if (!read.unit.empty()) {
+        writing.unit = read.unit;
     }
-    Result<io::WriteReport> report = write_mesh(session, context, options.output, read->mesh, writing);
+    Result<io::WriteReport> report = write_mesh(session, context, options.output, read.mesh, writing);
     if (!report) return std::move(report).error();
-    warn_of_losses(session, *read, report->format);
-    session.result = {{"vertices", read->mesh.vertices.size()},
-                      {"triangles", read->mesh.triangles.size()},
+    warn_of_losses(session, read, report->format);
+    session.result = {{"vertices", read.mesh.vertices.size()},
+                      {"triangles", read.mesh.triangles.size()},
                       {"format", report->format},
                       {"bytes", report->bytes},
                       {"largest_displacement", report->largest_displacement},
                       {"scale", scale}};
     session.text = fmt::format("{}: {}, {}, {} bytes of {}\n", options.output,
-                               counted(read->mesh.vertices.size(), "vertex", "vertices"),
-                               counted(read->mesh.triangles.size(), "triangle", "triangles"),
+                               counted(read.mesh.vertices.size(), "vertex", "vertices"),
+                               counted(read.mesh.triangles.size(), "triangle", "triangles"),
                                grouped(report->bytes), report->format);
     if (scale != 1)
         session.text +=
             fmt::format("scaled by {}: from {} to {}\n", number_text(scale), stated, options.unit);
     return ExitCode::ok;
+}
+
+Result<ExitCode> convert_surface(Session& session, const Context& context, const ConvertOptions& options,
+                                 const std::string& format) {
+    if (options.level) {
+        Result<Envelopes> envelopes = read_envelopes(session, context, options);
+        if (!envelopes) return std::move(envelopes).error();
+        Result<ExitCode> written =
+            write_surface(session, context, options, format, std::move(envelopes->read));
+        if (written) session.result["bytes_read"] = envelopes->bytes_read;
+        return written;
+    }
+    Result<io::ReadMesh> read = read_surface(session, context, options.input, options.from);
+    if (!read) return std::move(read).error();
+    return write_surface(session, context, options, format, std::move(*read));
 }
 
 /// Meshes, and what only octrees become.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
 #include <new>
 
 #include <octavo/bp_octree/bpo_file.hpp>
@@ -13,24 +15,39 @@ Error in_file(Error error, const std::string& path) {
     return error;
 }
 
+/// What is no file on disk cannot be read in parts.
+Result<std::unique_ptr<io::ByteSource>> source_at(const std::string& path, const Context& context) {
+    std::error_code unknown;
+    if (path != "-" && std::filesystem::is_regular_file(path, unknown)) return io::open_file(path);
+    Result<io::ByteBlock> block = io::read_bytes(path, context);
+    if (!block) return std::move(block).error();
+    return io::source_of(std::move(*block), path);
+}
+
 }  // namespace
 
+Result<BpoReader> open_bpo(const std::string& path, const Context& context) try {
+    auto source = source_at(path, context);
+    if (!source) return std::move(source).error();
+    return BpoReader::open(std::move(*source));
+} catch (const std::bad_alloc&) {
+    return in_file({ErrorCode::limit, "does not fit into memory", {}}, path);
+}
+
 Result<ReadBpo> read_bpo(const std::string& path, const ReadBpoOptions& options, const Context& context) try {
-    const Result<io::ByteBlock> block = io::read_bytes(path, context);
-    if (!block) return block.error();
-    const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(block->bytes().data()),
-                                              block->size());
-    auto to_level = bytes_to_level(bytes);
-    if (!to_level) return in_file(std::move(to_level).error(), path);
-    auto file_size = size_in_head(bytes);
-    if (!file_size) return in_file(std::move(file_size).error(), path);
-    const bool is_partial = options.partial == ReadBpoOptions::Partial::accept && bytes.size() < *file_size;
-    DecodeOptions decoding;
-    decoding.levels = options.levels;
-    Result<BpOctree> tree = is_partial ? decode_beginning(bytes, decoding) : decode(bytes, decoding, context);
+    Result<BpoReader> reader = open_bpo(path, context);
+    if (!reader) return std::move(reader).error();
+    const bool is_partial = reader->is_partial();
+    const bool accepts = options.partial == ReadBpoOptions::Partial::accept;
+    const bool reads_levels = options.levels || (is_partial && accepts);
+    Result<BpOctree> tree = reads_levels && (!is_partial || accepts)
+                                ? reader->read_levels(options.levels.value_or(max_depth))
+                                : reader->read_all(context);
     if (!tree) return in_file(std::move(tree).error(), path);
-    to_level->resize(tree->levels.size());
-    return ReadBpo{std::move(*tree), bytes.size(), std::move(*to_level), is_partial};
+    std::vector<std::uint64_t> to_level = reader->bytes_to_level();
+    to_level.resize(tree->levels.size());
+    return ReadBpo{std::move(*tree), reader->arrived().bytes, reader->bytes_read(), std::move(to_level),
+                   is_partial};
 } catch (const std::bad_alloc&) {
     return in_file({ErrorCode::limit, "does not fit into memory", {}}, path);
 }

@@ -153,8 +153,8 @@ Result<HeadAndLevels> get_head(std::span<const std::uint8_t> bytes) {
 Result<std::vector<ChunkEntry>> get_index(const BpoHead& head, std::span<const std::uint8_t> bytes) {
     const std::uint64_t pages = (std::uint64_t{head.chunks} + entries_a_page - 1) / entries_a_page;
     std::uint64_t at = head.index_at();
-    if (bytes.size() < at + pages * page_size) return damaged("it ends within its index", bytes.size());
-    std::uint64_t next_chunk = at + pages * page_size;
+    if (bytes.size() < head.chunks_at()) return damaged("it ends within its index", bytes.size());
+    std::uint64_t next_chunk = head.chunks_at();
     std::vector<ChunkEntry> entries;
     for (std::uint64_t page = 0; page < pages; ++page, at += page_size) {
         const auto content = bytes.subspan(at, page_size);

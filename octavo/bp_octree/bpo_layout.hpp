@@ -35,6 +35,8 @@ struct BpoHead {
     static constexpr std::size_t size = 192;
     static constexpr std::size_t level_size = 48;
     std::uint64_t index_at() const { return size + level_size * levels; }
+    /// Where the index ends and the first chunk begins.
+    std::uint64_t chunks_at() const;
 };
 
 enum class ChunkKind : std::uint8_t { envelopes = 0, triangles = 1 };
@@ -56,6 +58,8 @@ struct ChunkEntry {
     /// Envelopes: name of the first parent. Triangles: of the first leaf. The root's chunk has the root.
     std::uint64_t first_key = 0;
 
+    std::uint64_t end() const { return offset + size; }
+
     static constexpr std::size_t size_in_file = 48;
 };
 
@@ -63,6 +67,10 @@ inline constexpr std::size_t page_size = 4096;
 inline constexpr std::size_t page_head = 16;
 inline constexpr std::size_t entries_a_page = (page_size - page_head) / ChunkEntry::size_in_file;
 static_assert(page_head + entries_a_page * ChunkEntry::size_in_file == page_size);
+
+inline std::uint64_t BpoHead::chunks_at() const {
+    return index_at() + (std::uint64_t{chunks} + entries_a_page - 1) / entries_a_page * page_size;
+}
 
 void put_head(const BpoHead& head, std::span<const LevelFigures> levels, std::vector<std::uint8_t>& out);
 void put_index(std::span<const ChunkEntry> entries, std::vector<std::uint8_t>& out);

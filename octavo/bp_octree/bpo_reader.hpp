@@ -7,25 +7,56 @@
 #include <string>
 #include <vector>
 
+#include <octavo/base/context.hpp>
 #include <octavo/bp_octree/bpo_chunks.hpp>
-#include <octavo/io/range_reader.hpp>
+#include <octavo/io/byte_source.hpp>
 
-// A .bpo file that stays where it is: opening reads head and index, and a question about a place reads the chunks that
-// lie on the way to its leaf, once. So the first answer takes milliseconds however large the file is, and memory
-// holds what was asked for.
+// A .bpo file that stays where it is, on disk, mapped, or behind a server: opening reads head and index, and a question
+// reads the chunks that it needs, once, those that lie side by side together. So the first answer takes milliseconds
+// however large the file is, and memory holds what was asked for.
 //
 // What is read is checked as it is decoded; what is not read is not. That planes contain the solid only `certify` can
-// tell, and it needs the whole tree.
+// tell, and it needs the whole tree. Of a download that broke off all is there that arrived.
 
 namespace octavo::bp_octree {
+
+/// How much of a file is there.
+struct BpoArrived {
+    std::uint64_t bytes = 0;
+    int levels = 0;                           ///< that are complete, from the root on
+    std::uint64_t triangles = 0, leaves = 0;  ///< in complete chunks of triangles
+};
 
 class BpoReader {
   public:
     /// Errors: those of `decode` that head and index can show; io.
+    static Result<BpoReader> open(std::unique_ptr<io::ByteSource> source);
     static Result<BpoReader> open(const std::string& path);
 
     const BpoHead& head() const { return head_; }
     const std::vector<LevelFigures>& levels() const { return levels_; }
+    /// Bytes of the file up to and with each level; the last one is everything before the triangles.
+    std::vector<std::uint64_t> bytes_to_level() const;
+    BpoArrived arrived() const;
+    bool is_partial() const { return source_->size() < head_.file_size; }
+    /// So many bytes were asked of the source.
+    std::uint64_t bytes_read() const { return bytes_read_; }
+
+    /// Levels 0 to `last`, or as many as there are, without triangles, in one request. Errors: as decode_beginning.
+    Result<BpOctree> read_levels(int last);
+    /// Everything. Errors: as decode.
+    Result<BpOctree> read_all(const Context& context = {});
+
+    /// The octants of a split node as they are stored.
+    struct Octants {
+        const EnvelopeChunk* chunk;
+        std::size_t first;  ///< of the eight nodes; of level 0 the only one
+        /// Of each node of the chunk: which split node of the level it is, which gray one of the chunk.
+        std::span<const std::uint32_t> split, gray;
+    };
+    /// The octants of these split nodes, ascending numbers on `level` − 1; the root for level 0 and {0}. Valid as long as
+    /// the reader. Errors: bad_input, io.
+    Result<std::vector<Octants>> octants(std::size_t level, std::span<const std::uint32_t> parents);
 
     /// The leaf that holds a place.
     struct Leaf {
@@ -41,18 +72,21 @@ class BpoReader {
     Result<const DecodedGeometry*> triangles_near(const octree::Cell& leaf);
 
   private:
-    explicit BpoReader(io::RangeReader file) : file_(std::move(file)) {}
+    explicit BpoReader(std::unique_ptr<io::ByteSource> source) : source_(std::move(source)) {}
 
     struct Envelopes {
         EnvelopeChunk chunk;
-        std::vector<std::uint32_t>
-            number;  ///< per node: of split nodes among theirs, of gray among theirs, in the chunk
+        std::vector<std::uint32_t> split, gray;  ///< as in Octants
     };
-    Result<const Envelopes*> envelopes(std::size_t entry);
+    Status read_head_and_index();
+    Status find_levels();
+    Result<io::ByteRange> read(std::uint64_t offset, std::uint64_t size);
+    Status load(std::span<const std::size_t> entries);
+    Status keep(std::size_t entry, std::span<const std::uint8_t> bytes);
     Result<std::size_t> entry_of(std::size_t level, std::uint32_t parent) const;
-    Result<std::vector<std::uint8_t>> bytes_of(const ChunkEntry& entry);
 
-    io::RangeReader file_;
+    std::unique_ptr<io::ByteSource> source_;
+    std::uint64_t bytes_read_ = 0;
     BpoHead head_;
     std::vector<LevelFigures> levels_;
     std::vector<ChunkEntry> entries_;

@@ -167,11 +167,10 @@ class Encoder {
         head.triangles = tree_.mesh.triangles.size();
         head.points = tree_.mesh.points.size();
         head.chunks = static_cast<std::uint32_t>(entries_.size());
-        std::uint64_t at =
-            head.index_at() + (entries_.size() + entries_a_page - 1) / entries_a_page * page_size;
+        std::uint64_t at = head.chunks_at();
         for (ChunkEntry& entry : entries_) {
             entry.offset = at;
-            at += entry.size;
+            at = entry.end();
         }
         head.file_size = at;
         std::vector<std::uint8_t> out;

@@ -24,7 +24,13 @@ classic::FacetCorners doubled(const bp_octree::DecodedGeometry& geometry, const 
 }  // namespace
 
 Result<StoredInside> StoredInside::open(const std::string& path) {
-    auto reader = bp_octree::BpoReader::open(path);
+    auto source = io::open_file(path);
+    if (!source) return source.error();
+    return open(std::move(*source));
+}
+
+Result<StoredInside> StoredInside::open(std::unique_ptr<io::ByteSource> source) {
+    auto reader = bp_octree::BpoReader::open(std::move(source));
     if (!reader) return reader.error();
     if (!reader->head().is_solid)
         return Error{

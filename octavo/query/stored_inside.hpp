@@ -21,9 +21,13 @@ class StoredInside {
     /// Errors: those of BpoReader::open; not_a_solid for a tree of an open surface; limit when it lies so far from
     /// the world's origin that half a unit has no name there.
     static Result<StoredInside> open(const std::string& path);
+    static Result<StoredInside> open(std::unique_ptr<io::ByteSource> source);
 
     /// Where a point of the world lies; the same rules and answers as InsideQuery. Errors: bad_input, io.
     Result<Side> operator()(Vec3 point);
+
+    /// So many bytes of the file have been read.
+    std::uint64_t bytes_read() const { return reader_.bytes_read(); }
 
   private:
     StoredInside(bp_octree::BpoReader reader, exact::Lattice half)

@@ -33,6 +33,30 @@ TEST_F(BpOctreeVerbs, BuildTellsOfItsLevelsAndStatsReadsThemBack) {
     json stats = octavo("stats knot.bpo --json").json()["result"];
     for (const char* key : {"levels", "leaves", "planes", "bytes", "volume", "triangles", "depth"})
         EXPECT_EQ(stats[key], result[key]) << key;
+    // Head and index tell all that; the rest of the file is not read.
+    EXPECT_EQ(stats["arrived"]["bytes"], result["bytes"]);
+    EXPECT_EQ(stats["arrived"]["triangles"], result["triangles"]);
+    EXPECT_FALSE(stats.contains("certified"));
+    stats = octavo("stats knot.bpo --certify --json").json()["result"];
+    EXPECT_EQ(stats["certified"], true);
+    EXPECT_GT(stats["bytes_read"], result["bytes"]);
+    EXPECT_EQ(shell("$octavo stats - --json < knot.bpo").json()["result"]["planes"], result["planes"]);
+}
+
+TEST_F(BpOctreeVerbs, NoMoreOfALargeFileIsReadThanIsAskedFor) {
+    ASSERT_EQ(octavo("shape knot --detail 400 -o knot.ply").exit_code, 0);
+    const json built = octavo("build knot.ply -o knot.bpo --quality fast --json").json()["result"];
+    const auto size = built["bytes"].get<std::size_t>();
+    ASSERT_GT(size, 150000U);
+    EXPECT_EQ(octavo("stats knot.bpo --json").json()["result"]["bytes_read"], 65536);
+    const json level = octavo("convert knot.bpo level.off --level 2 --json").json()["result"];
+    EXPECT_LT(level["bytes_read"], 65536 + size / 4);
+    // All but the last byte: all but the triangles of the last chunk are there.
+    write("most.bpo", read("knot.bpo").substr(0, size - 1));
+    const json arrived = octavo("stats most.bpo --json").json()["result"]["arrived"];
+    EXPECT_EQ(arrived["levels"], built["levels"].size());
+    EXPECT_GT(arrived["triangles"], built["triangles"].get<std::uint64_t>() / 2);
+    EXPECT_LT(arrived["triangles"], built["triangles"]);
 }
 
 TEST_F(BpOctreeVerbs, BuildIsTheSameForAnyNumberOfThreads) {
@@ -67,9 +91,12 @@ TEST_F(BpOctreeVerbs, TheBeginningOfAFileIsEnoughForItsLevels) {
     for (int level = 0; level <= 2; ++level) bytes += built["levels"][level]["bytes"].get<std::uint64_t>();
     write("begun.bpo", read("knot.bpo").substr(0, bytes + 1));
     const json stats = octavo("stats begun.bpo --json").json();
-    ASSERT_EQ(stats["result"]["levels"].size(), 3U);
-    EXPECT_EQ(stats["result"]["levels"][2], built["levels"][2]);
+    EXPECT_EQ(stats["result"]["levels"], built["levels"]);
+    EXPECT_EQ(stats["result"]["triangles"], built["triangles"]);
+    EXPECT_EQ(stats["result"]["arrived"],
+              (json{{"bytes", bytes + 1}, {"levels", 3}, {"leaves", 0}, {"triangles", 0}}));
     EXPECT_EQ(stats["warnings"].size(), 1U);
+    EXPECT_EQ(octavo("stats begun.bpo --certify").exit_code, 3);
     EXPECT_EQ(octavo("convert begun.bpo level.off --level 2").exit_code, 0);
     write("far.csv", "0,0,9\n");
     const Ran bound = octavo("distance begun.bpo far.csv --level 2");
@@ -96,7 +123,8 @@ TEST_F(BpOctreeVerbs, ADamagedFileIsExitCode3WithTheByte) {
     std::string bytes = read("cube.bpo");
     bytes.back() = static_cast<char>(bytes.back() ^ 1);
     write("cube.bpo", bytes);
-    const Ran ran = octavo("stats cube.bpo --json");
+    EXPECT_EQ(octavo("stats cube.bpo").exit_code, 0);  // the last chunk is damaged, and not read
+    const Ran ran = octavo("stats cube.bpo --certify --json");
     EXPECT_EQ(ran.exit_code, 3);
     EXPECT_EQ(ran.json()["error"]["file"], "cube.bpo");
     EXPECT_EQ(octavo("build cube.ply -o cube.oct").exit_code, 2);
