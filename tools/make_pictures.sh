@@ -44,6 +44,7 @@ octavo intersection "$scratch/sponge.ply" "$scratch/ball.ply" -o "$scratch/cut.p
 octavo render "$scratch/cut.ply" -o docs/pictures/boolean.png --azimuth 35 --elevation 25 --edges sharp --size 600x500
 octavo hexmesh "$scratch/housing.ply" --level 6 -o "$scratch/housing-mesh.oct"
 octavo render "$scratch/housing-mesh.oct" -o docs/pictures/housing-hexmesh.png --cut x --size 800x600
+octavo hexmesh "$scratch/housing.ply" --level 6 --fit --picture docs/pictures/housing-fitted.png
 
 # A bracket from OpenSCAD to stresses; the last picture needs CalculiX.
 cp docs/examples/bracket.inp docs/examples/mises.awk "$scratch"

@@ -12,6 +12,7 @@
 #include <octavo/hexmesh/covered_sides.hpp>
 #include <octavo/hexmesh/half_filled.hpp>
 #include <octavo/hexmesh/number.hpp>
+#include <octavo/hexmesh/walls.hpp>
 #include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/self_overlap.hpp>
 #include <octavo/mesh/snap.hpp>
@@ -188,9 +189,9 @@ std::vector<CellKey> split_for(std::span<const CellKey> leaves, std::span<const 
 }
 
 /// The refinement that Options::layers asks for; it stops at the first layer with too many cells.
-std::vector<CellKey> with_layers(const ClassifiedCells& cells, std::vector<CellKey> keys,
+std::vector<CellKey> with_layers(const ClassifiedCells& cells, RefinedAtWalls refined,
                                  const Options& options) {
-    std::vector<CellKey> front;
+    std::vector<CellKey> keys = std::move(refined.keys), front = std::move(refined.cells);
     for (std::size_t i = 0; i < cells.keys.size(); ++i)
         if (!cells.sets[cells.set_of_cell[i]].boundary.empty()) front.push_back(cells.keys[i]);
     for (int layer = 0; layer < options.layers && keys.size() <= options.max_cells; ++layer) {
@@ -207,8 +208,11 @@ Result<ClassifiedCells> balanced_cells(const Prepared& prepared, const Options& 
     if (!sizes) return sizes.error();
     Result<ClassifiedCells> refined = refine(prepared.facets, *sizes, options, context);
     if (!refined) return refined;
+    Result<RefinedAtWalls> at_walls = refine_at_walls(*refined, prepared.facets, *sizes, options, context);
+    if (!at_walls) return at_walls.error();
     std::vector<CellKey> keys = octree::balance(
-        options.layers > 0 ? with_layers(*refined, refined->keys, options) : refined->keys, options.balance);
+        options.layers > 0 ? with_layers(*refined, std::move(*at_walls), options) : at_walls->keys,
+        options.balance);
     if (keys.size() > options.max_cells) return too_many_cells(options.max_cells);
     if (splits_a_boundary_cell(*refined, keys)) return classify(prepared.facets, keys, options, context);
     return inherit(std::move(*refined), std::move(keys));

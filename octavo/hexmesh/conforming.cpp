@@ -248,15 +248,6 @@ Result<mesh::HexMesh> assemble(const LooseHexes& loose,
     return mesh;
 }
 
-/// Six tetrahedra round the diagonal; exact for the boxes and prisms of templates, and near enough for others.
-double volume_of(const CellCorners& p) {
-    constexpr std::array<std::array<std::size_t, 2>, 6> around{
-        {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}};
-    double six = 0;
-    for (const auto& [a, b] : around) six += dot(p[a] - p[0], cross(p[b] - p[0], p[7] - p[0]));
-    return six / 6;
-}
-
 /// Counts what the mesh has; sizes are edges of the least and the largest cube with the cells' volume.
 void measure(const mesh::HexMesh& mesh, Report& report) {
     report.inside_cells = mesh.cell_count();
@@ -283,6 +274,7 @@ Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options
     sizing.keep = Keep::touched;
     sizing.fractions = Fractions::skip;
     sizing.balance = octree::Contact::face;
+    sizing.refine_at_walls = false;  // cells of the grid are as small as `precision` everywhere
     const Box3 content = mesh::bounds_of_facets(solids);
     if (content.empty()) return build(solids, sizing, context);  // which says what is wrong
     const Result<exact::Lattice> lattice = grid_lattice(content);

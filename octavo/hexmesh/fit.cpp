@@ -253,23 +253,23 @@ Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, c
     const Distances before = distances_of(answers, small);
     report.boundary_nodes = fitter->surface().nodes.size();
     report.mean_distance_before = before.mean, report.largest_distance_before = before.largest;
-    // Where the cubes fit as they are, a layer would only make corners worse.
-    if (options.buffer_layer == BufferLayer::where_possible && before.small < report.boundary_nodes &&
-        insert_buffer_layer(mesh)) {
+    // Where the cubes fit as they are, a layer and moves would only make corners worse.
+    const bool is_on_surface = before.small == report.boundary_nodes;
+    const int rounds = is_on_surface ? 0 : options.rounds;
+    if (options.buffer_layer == BufferLayer::where_possible && !is_on_surface && insert_buffer_layer(mesh)) {
         report.has_buffer_layer = true;
         fitter.emplace(mesh, options);
         answers = nearest_to(fitter->surface_positions());
     }
-    for (int round = 0; round < options.rounds; ++round) {
+    for (int round = 0; round < rounds; ++round) {
         if (context.cancelled()) return Context::cancelled_error();
         std::vector<Vec3> targets;
         for (const query::Closest& answer : answers) targets.push_back(answer.point);
         fitter->move_surface(targets);
         fitter->smooth_inside();
-        context.report("fit", static_cast<double>(round + 1) / (options.rounds + 1));
+        context.report("fit", static_cast<double>(round + 1) / (rounds + 1));
         // The last rounds only draw nearer.
-        answers =
-            nearest_to(round + 3 < options.rounds ? fitter->smoothed(answers) : fitter->surface_positions());
+        answers = nearest_to(round + 3 < rounds ? fitter->smoothed(answers) : fitter->surface_positions());
     }
     if (context.cancelled()) return Context::cancelled_error();
     const Distances after = distances_of(nearest_to(fitter->surface_positions()), small);

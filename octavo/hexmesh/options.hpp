@@ -20,7 +20,7 @@ namespace octavo::hexmesh {
 /// Lengths of one solid that differ from the general ones; 0 leaves the general one.
 struct SolidSize {
     mesh::SolidIndex solid = 0;
-    double surface = 0;   ///< cells that its surface passes through are at most this large
+    double surface = 0;   ///< cells on its surface are at most this large
     double interior = 0;  ///< cells inside are at most this large
 };
 
@@ -65,7 +65,7 @@ enum class OverlapPolicy : std::uint8_t {
 };
 
 struct Options {
-    double precision = 0;  ///< cells that a surface passes through are at most this large; 0 asks for `level`
+    double precision = 0;  ///< cells on a surface are at most this large; 0 asks for `level`
     int level = 7;  ///< used when precision is 0: cells on surfaces are about 1/2^level of the largest extent
     double largest = 0;  ///< no cell of the mesh is larger; 0 is no limit
     std::vector<SolidSize> solids = {};
@@ -75,6 +75,9 @@ struct Options {
     /// Cells that touch a boundary cell are no larger than it, and those that touch these, so many times. One layer
     /// keeps larger cells off the boundary under Keep::half and Keep::manifold.
     int layers = 0;
+    /// A surface in the walls between cells asks for its size as well as one that passes through them (walls.hpp). Without
+    /// that a box on the grid has as few cells as there can be.
+    bool refine_at_walls = true;
     octree::Contact balance = octree::Contact::edge;
     Keep keep = Keep::touched;
     /// Rounds of splitting larger cells under Keep::manifold; a few are usual, and Report::cut_off_cells says when they

@@ -16,7 +16,9 @@
 #include <octavo/io/openscad_csg.hpp>
 #include <octavo/mesh/hex_sides.hpp>
 #include <octavo/mesh/shapes.hpp>
+#include <octavo/mesh/used_vertices.hpp>
 
+#include "hexmesh/solids.hpp"
 #include "places.hpp"
 
 namespace octavo::hexmesh {
@@ -103,25 +105,33 @@ TEST(KeepManifold, HasABoundaryThatNeverTouchesItself) {
 }
 
 TEST(KeepManifold, LeavesNoSideCoveredInPart) {
-    // Flat sides on the grid with large cells, a rib between with small ones.
+    // Cells of two sizes meet on the surface, a bracket's as well as a ball's.
     const auto file =
         io::read_csg(std::string(tests::source_folder) + "/docs/examples/bracket.csg", {.faceted = true});
     ASSERT_TRUE(file);
     const auto bracket = boolean::evaluate(file->expression);
     ASSERT_TRUE(bracket);
-    const std::vector<mesh::Mesh> solids{bracket->mesh};
-    Options options{.precision = 1, .largest = 2, .layers = 1, .keep = Keep::half};
-    const Result<Built> half = build(solids, options);
-    options.keep = Keep::manifold;
-    Result<Built> manifold = build(solids, options);
-    ASSERT_TRUE(half && manifold);
-    EXPECT_GT(mesh::boundary_sides(half->mesh).partly_covered, 4u) << "or nothing was tested";
-    EXPECT_EQ(mesh::boundary_sides(manifold->mesh).partly_covered, 0u);
-    EXPECT_EQ(manifold->report.largest_cell, 2) << "not all cells were split";
-    for (const SolidReport& solid : manifold->report.solids)
-        EXPECT_NEAR(solid.filled_volume / solid.exact_volume, 1, 1e-9);
-    EXPECT_TRUE(insert_buffer_layer(manifold->mesh));
-    expect_closed_manifold(manifold->mesh);
+    const Box3 bounds = mesh::bounds_of_facets(std::span(&bracket->mesh, 1));
+    const Vec3 middle = 0.5 * (bounds.low + bounds.high);
+    const std::vector<std::pair<mesh::Mesh, Options>> cases{
+        {bracket->mesh, {.precision = 2, .boxes = {{{bounds.low, middle}, 0.5}}}},
+        {mesh::icosphere(1, 16), {.precision = 0.25, .boxes = {{{{-2, -2, -2}, {0.1, 0.2, 0.3}}, 0.0625}}}}};
+    std::size_t covered = 0;
+    for (const auto& [solid, sizes] : cases) {
+        Options options = sizes;
+        options.keep = Keep::half;
+        const Result<Built> half = build(std::span(&solid, 1), options);
+        options.keep = Keep::manifold;
+        Result<Built> manifold = build(std::span(&solid, 1), options);
+        ASSERT_TRUE(half && manifold);
+        covered += mesh::boundary_sides(half->mesh).partly_covered;
+        EXPECT_EQ(mesh::boundary_sides(manifold->mesh).partly_covered, 0u);
+        EXPECT_EQ(manifold->report.largest_cell, half->report.largest_cell) << "not all cells were split";
+        expect_exact_volumes(*manifold);
+        EXPECT_TRUE(insert_buffer_layer(manifold->mesh));
+        expect_closed_manifold(manifold->mesh);
+    }
+    EXPECT_GT(covered, 4u) << "or nothing was tested";
 }
 
 TEST(BufferLayer, KeepsTheBoundaryAndTheVolume) {

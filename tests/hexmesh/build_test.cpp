@@ -293,14 +293,13 @@ TEST(Build, KeepsCellsThatTouchingSolidsFillTogether) {
 }
 
 TEST(Build, SaysWhenRoundsOfSplittingWereNotEnough) {
-    // A pin of small cells stands on a part of a larger cell's side.
-    const std::vector<Mesh> solids{mesh::box({0, 0, 0}, {2, 2, 2}),
-                                   mesh::box({0.25, 0.25, 2}, {0.5, 0.5, 3})};
-    Options options{.precision = 0.5, .solids = {{.solid = 1, .surface = 0.25, .interior = 0.25}}};
+    // Where cells of two sizes meet on the surface smaller ones cover a part of a larger one's side.
+    const Mesh ball = mesh::icosphere(1, 16);
+    Options options{.precision = 0.25, .boxes = {{{{-2, -2, -2}, {0.1, 0.2, 0.3}}, 0.0625}}};
     options.keep = Keep::manifold;
-    const Result<Built> enough = build(solids, options);
+    const Result<Built> enough = build(std::span(&ball, 1), options);
     options.splitting_rounds = 0;
-    const Result<Built> few = build(solids, options);
+    const Result<Built> few = build(std::span(&ball, 1), options);
     ASSERT_TRUE(enough && few);
     EXPECT_EQ(enough->report.cut_off_cells, 0u);
     EXPECT_GT(few->report.cut_off_cells, 0u);

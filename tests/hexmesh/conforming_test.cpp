@@ -78,8 +78,10 @@ TEST(BuildConforming, ConformsWhereSizesDiffer) {
     const Result<Built> built = build_conforming(std::span(&sphere, 1), options);
     ASSERT_TRUE(built) << built.error().describe();
     expect_conforming(built->mesh);
-    EXPECT_EQ(measure_quality(built->mesh).not_proved_positive, 0u);
+    const Quality quality = measure_quality(built->mesh);
+    EXPECT_EQ(quality.not_proved_positive, 0u);
     EXPECT_GT(built->report.largest_cell / built->report.smallest_cell, 2);
+    EXPECT_NEAR(built->report.solids[0].inside_volume / quality.volume, 1, 1e-12);
     EXPECT_NEAR(built->report.solids[0].inside_volume / built->report.solids[0].exact_volume, 1, 0.05);
 }
 

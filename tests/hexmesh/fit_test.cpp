@@ -109,6 +109,21 @@ TEST(Fit, LeavesABoxOnTheGridAsItIs) {
     expect_valid(built->mesh, 0.9);
 }
 
+TEST(Fit, MovesNothingWhereTheBoundaryLiesOnTheSurface) {
+    // Cells of two sizes, whose nodes smoothing would move.
+    const mesh::Mesh box = mesh::box({0, 0, 0}, {8, 8, 8});
+    Result<Built> built = build(std::span(&box, 1), {.precision = 0.5, .keep = Keep::manifold});
+    ASSERT_TRUE(built && built->mesh.hanging_nodes() > 100);
+    const mesh::HexMesh before = built->mesh;
+    const Result<FitReport> report = fit(built->mesh, std::span(&box, 1));
+    ASSERT_TRUE(report);
+    EXPECT_FALSE(report->has_buffer_layer);
+    EXPECT_EQ(report->nodes_on_surface, report->boundary_nodes);
+    for (mesh::NodeIndex node = 0; node < before.node_count(); ++node)
+        ASSERT_EQ(built->mesh.position(node), before.position(node));
+    expect_valid(built->mesh, 1);
+}
+
 TEST(Fit, DrawsInterfacesOntoTheirSurface) {
     // A ball in a ball: the nodes between the two materials go to the inner sphere.
     const std::vector<mesh::Mesh> solids{mesh::icosphere(1, 12), mesh::icosphere(0.5, 12)};
