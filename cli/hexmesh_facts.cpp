@@ -18,9 +18,13 @@ bool has_fractions(const hexmesh::Built& built) {
     return built.mesh.is_octree() && (!built.mesh.fractions.empty() || built.report.boundary_cells == 0);
 }
 
-/// What the mesh knows of a solid's volume: exact when fractions were computed.
-double volume_of(const hexmesh::SolidReport& solid, bool exact) {
-    return exact ? solid.filled_volume : solid.inside_volume + solid.boundary_volume / 2;
+/// How much of the solids the cells fill, all together. Without fractions nothing is known of boundary cells, so that half of
+/// each is an estimate; conforming meshes have none, and what they fill are their cells.
+double volume_of(const hexmesh::Report& report, bool exact) {
+    double volume = 0;
+    for (const hexmesh::SolidReport& solid : report.solids)
+        volume += exact ? solid.filled_volume : solid.inside_volume + solid.boundary_volume / 2;
+    return volume;
 }
 
 Json json_of(const hexmesh::SolidReport& solid, const std::string& name, bool exact) {
@@ -56,10 +60,9 @@ std::vector<bool> solids_with_cells(const mesh::HexMesh& mesh, std::size_t solid
 Json json_of(const hexmesh::Built& built, std::span<const std::string> names) {
     const hexmesh::Report& report = built.report;
     const bool exact = has_fractions(built);
-    double volume = 0;
+    const bool is_known = exact || report.boundary_cells == 0;
     Json solids = Json::array(), levels = Json::array();
     for (std::size_t i = 0; i < report.solids.size(); ++i) {
-        volume += volume_of(report.solids[i], exact);
         solids.push_back(json_of(report.solids[i], names[i], exact));
     }
     const double unit = built.mesh.lattice.unit();
@@ -71,7 +74,7 @@ Json json_of(const hexmesh::Built& built, std::span<const std::string> names) {
             {"hanging_nodes", built.mesh.hanging_nodes()},
             {"interior", report.inside_cells},
             {"boundary", report.boundary_cells},
-            {"volume", volume},
+            {is_known ? "volume" : "estimated_volume", volume_of(report, exact)},
             {"smallest_cell", report.smallest_cell},
             {"largest_cell", report.largest_cell},
             {"tree_cells", report.tree_cells},
@@ -175,9 +178,11 @@ void warn_about(Session& session, const hexmesh::Built& built, std::span<const s
                         grouped(report.cut_off_cells)));
     if (report.overlaps)
         session.warn(
-            "a solid overlaps itself; inside is where its surface winds at least once, and its exact volume "
-            "counts "
-            "overlaps as often as they are covered, but cells inside count once");
+            "a solid overlaps itself, or does where its vertices are rounded to the lattice; inside is where "
+            "its "
+            "surface winds at least once, and its exact volume counts overlaps as often as they are covered, "
+            "but "
+            "cells inside count once");
 }
 
 }  // namespace octavo::cli

@@ -5,11 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <octavo/boolean/expression.hpp>
 #include <octavo/hexmesh/build.hpp>
 #include <octavo/hexmesh/conforming.hpp>
 #include <octavo/hexmesh/fit.hpp>
-#include <octavo/io/openscad_csg.hpp>
 #include <octavo/mesh/material_names.hpp>
 #include <octavo/render/png.hpp>
 #include <octavo/render/raster.hpp>
@@ -19,6 +17,7 @@
 #include "hexmesh_facts.hpp"
 #include "hexmesh_files.hpp"
 #include "hexmesh_sizes.hpp"
+#include "hexmesh_solids.hpp"
 #include "model.hpp"
 #include "option_checks.hpp"
 #include "program.hpp"
@@ -30,41 +29,37 @@ namespace {
 
 struct HexmeshOptions {
     std::vector<std::string> inputs, sizes, boxes;
-    std::string output, to, balance = "edge", open = "reject", overlaps = "reject", curvature, keep, picture,
+    std::string output, to, balance = "edge", open = "reject", overlaps = "unite", curvature, keep, picture,
                             values, max_cells = "100M";
     int level = 7, layers = -1;
     double precision = 0, largest = 0, proximity = 0;
     bool conforming = false, fit = false, no_fractions = false, skip_unsupported = false;
 };
 
-/// The solid that a .csg tree describes, faceted as OpenSCAD does it.
-Result<mesh::Mesh> read_csg_solid(Session& session, const Context& context, const std::string& path,
-                                  const HexmeshOptions& options) {
-    const Result<io::CsgFile> file =
-        read_csg(session, context, path, {.faceted = true, .skip_unsupported = options.skip_unsupported});
-    if (!file) return file.error();
-    Result<boolean::Evaluated> evaluated =
-        session.timed("evaluate", [&] { return boolean::evaluate(file->expression, {}, context); });
-    if (!evaluated) return in_file(std::move(evaluated).error(), path);
-    session.warn(evaluated->report.warnings);
-    return std::move(evaluated->mesh);
-}
-
-Result<std::vector<mesh::Mesh>> read_solids(Session& session, const Context& context,
-                                            const HexmeshOptions& options) {
-    std::vector<mesh::Mesh> solids;
-    for (const std::string& path : options.inputs) {
-        if (kind_of(path, "") == ModelKind::csg) {
-            Result<mesh::Mesh> solid = read_csg_solid(session, context, path, options);
-            if (!solid) return std::move(solid).error();
-            solids.push_back(std::move(*solid));
+/// Meshes the solids. One that overlaps itself is united with nothing first when that is asked for, which changes `solids`;
+/// overlaps that it still has, where rounding to the lattice made some, go by winding. `united` says which.
+Result<hexmesh::Built> mesh_solids(Session& session, const Context& context, const HexmeshOptions& options,
+                                   hexmesh::Options meshing, std::vector<mesh::Mesh>& solids,
+                                   std::vector<bool>& united) {
+    for (;;) {
+        Result<hexmesh::Built> built = session.timed("mesh", [&] {
+            return options.conforming ? hexmesh::build_conforming(solids, meshing, context)
+                                      : hexmesh::build(solids, meshing, context);
+        });
+        if (built || built.error().code != ErrorCode::not_a_solid || options.overlaps != "unite" ||
+            meshing.overlaps == hexmesh::OverlapPolicy::winding)
+            return built;
+        const std::size_t solid = built.error().place.operand.value_or(0);
+        if (united[solid]) {
+            meshing.overlaps = hexmesh::OverlapPolicy::winding;
             continue;
         }
-        Result<io::ReadMesh> read = read_surface(session, context, path);
-        if (!read) return std::move(read).error();
-        solids.push_back(std::move(read->mesh));
+        const Result<bool> changed =
+            unite_with_nothing(session, context, options.inputs[solid], built.error(), solids[solid]);
+        if (!changed) return changed.error();
+        if (!*changed) return built;
+        united[solid] = true;
     }
-    return solids;
 }
 
 Result<hexmesh::Options> meshing_options(const HexmeshOptions& options) {
@@ -176,12 +171,11 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
             ".mesh or a folder, or leave out --fit");
     const Result<hexmesh::Options> meshing = meshing_options(options);
     if (!meshing) return session.usage_error(meshing.error().sentence);
-    Result<std::vector<mesh::Mesh>> solids = read_solids(session, context, options);
+    Result<std::vector<mesh::Mesh>> solids = read_solids(
+        session, context, options.inputs, {.faceted = true, .skip_unsupported = options.skip_unsupported});
     if (!solids) return std::move(solids).error();
-    Result<hexmesh::Built> built = session.timed("mesh", [&] {
-        return options.conforming ? hexmesh::build_conforming(*solids, *meshing, context)
-                                  : hexmesh::build(*solids, *meshing, context);
-    });
+    std::vector<bool> united(solids->size(), false);
+    Result<hexmesh::Built> built = mesh_solids(session, context, options, *meshing, *solids, united);
     if (!built) {
         if (options.inputs.size() == 1) return in_file(std::move(built).error(), options.inputs[0]);
         return in_its_file(std::move(built).error(), options.inputs);
@@ -189,6 +183,7 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     const std::vector<std::string> names = names_of(options.inputs);
     warn_about(session, *built, names, options.inputs);
     session.result = json_of(*built, names);
+    for (std::size_t i = 0; i < united.size(); ++i) session.result["solids"][i]["united"] = bool{united[i]};
     session.text = text_of(*built, names);
     if (options.fit) {
         Result<hexmesh::FitReport> fitted =
@@ -229,7 +224,7 @@ void add_size_options(Verb* verb, HexmeshOptions& options) {
                         ->check(whole_number(0, octree::max_level))
                         ->type_name("N");
     verb->add_option("-p,--precision", options.precision,
-                     "Cells that a surface passes through are no larger than this, in the model's units")
+                     "Cells on a surface are no larger than this, in the model's units")
         ->check(check_positive)
         ->type_name("LENGTH")
         ->excludes(level);
@@ -294,9 +289,11 @@ void add_hexmesh(Program& program) {
     take_one_of(verb->add_option("--open", options->open,
                                  "An open surface: reject it, or close it and go by winding"),
                 {"reject", "winding"});
-    take_one_of(verb->add_option("--overlaps", options->overlaps,
-                                 "A solid that overlaps itself: reject it, or go by winding"),
-                {"reject", "winding"});
+    take_one_of(
+        verb->add_option("--overlaps", options->overlaps,
+                         "A solid that overlaps itself: mesh its exact union and warn, go by winding, "
+                         "or reject it"),
+        {"unite", "winding", "reject"});
     verb->add_flag("--skip-unsupported", options->skip_unsupported,
                    "For .csg: leave out text and the like, with warnings");
     verb->add_option("--picture", options->picture, "A picture of the mesh to draw: .png")

@@ -252,15 +252,17 @@ TEST_F(Hexmesh, OverwritesNothingThatItReads) {
     }
 }
 
+/// Two boxes in one file that overlap in a slice of 0.05 × 4.4 × 4.4, thinner than cells of 1.
+constexpr const char* overlapping_boxes =
+    "v 0 0 0\nv 4.6 0 0\nv 0 4.6 0\nv 4.6 4.6 0\nv 0 0 4.6\nv 4.6 0 4.6\nv 0 4.6 4.6\n"
+    "v 4.6 4.6 4.6\nv 4.55 .1 .1\nv 9 .1 .1\nv 4.55 4.5 .1\nv 9 4.5 .1\nv 4.55 .1 4.5\n"
+    "v 9 .1 4.5\nv 4.55 4.5 4.5\nv 9 4.5 4.5\n"
+    "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
+    "f 9 11 12 10\nf 13 14 16 15\nf 9 10 14 13\nf 11 15 16 12\nf 9 13 15 11\nf 10 12 16 14\n";
+
 TEST_F(Hexmesh, SaysWhichFilesAndFacetsOverlapThemselves) {
-    const std::string box =
-        "v 0 0 0\nv 4.6 0 0\nv 0 4.6 0\nv 4.6 4.6 0\nv 0 0 4.6\nv 4.6 0 4.6\nv 0 4.6 4.6\n"
-        "v 4.6 4.6 4.6\nv 4.55 .1 .1\nv 9 .1 .1\nv 4.55 4.5 .1\nv 9 4.5 .1\nv 4.55 .1 4.5\n"
-        "v 9 .1 4.5\nv 4.55 4.5 4.5\nv 9 4.5 4.5\n"
-        "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
-        "f 9 11 12 10\nf 13 14 16 15\nf 9 10 14 13\nf 11 15 16 12\nf 9 13 15 11\nf 10 12 16 14\n";
-    write("thin.obj", box);
-    const Ran refused = octavo("hexmesh thin.obj -p 1 -o thin.vtu --json");
+    write("thin.obj", overlapping_boxes);
+    const Ran refused = octavo("hexmesh thin.obj -p 1 -o thin.vtu --overlaps reject --json");
     EXPECT_EQ(refused.exit_code, 3);
     EXPECT_EQ(refused.json()["error"]["file"], "thin.obj");
     EXPECT_EQ(refused.json()["error"]["faces"].size(), 2u);
@@ -268,6 +270,44 @@ TEST_F(Hexmesh, SaysWhichFilesAndFacetsOverlapThemselves) {
     EXPECT_EQ(counted.exit_code, 0) << counted.err;
     EXPECT_EQ(counted.json()["result"]["overlaps"], true);
     EXPECT_NE(counted.err.find("overlaps"), std::string::npos) << counted.err;
+}
+
+TEST_F(Hexmesh, MeshesTheUnionOfWhatOverlapsItselfAndWarns) {
+    write("thin.obj", overlapping_boxes);
+    ASSERT_EQ(octavo("shape cube --size 2 -o cube.off").exit_code, 0);
+    const double expected = 4.6 * 4.6 * 4.6 + (9 - 4.6) * 4.4 * 4.4;
+    for (const char* more : {"", " --conforming", " --fit"}) {
+        const Ran ran = octavo(std::string("hexmesh cube.off thin.obj -p 1 -o out.vtu --json") + more);
+        ASSERT_EQ(ran.exit_code, 0) << ran.err;
+        EXPECT_NE(ran.err.find("thin.obj: the surface overlaps itself"), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find("near facet"), std::string::npos) << ran.err;
+        const auto result = ran.json()["result"];
+        EXPECT_EQ(result["overlaps"], false);
+        EXPECT_EQ(result["solids"][0]["united"], false);
+        EXPECT_EQ(result["solids"][1]["united"], true);
+        EXPECT_NEAR(result["solids"][1]["exact_volume"], expected, 1e-5);
+        if (std::string(more).empty()) {
+            EXPECT_NEAR(result["volume"].get<double>(), expected + 8, 1e-5);
+        }
+    }
+    // A union is no remedy for what is open or inside out.
+    write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+    write("out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+    EXPECT_NE(octavo("hexmesh open.obj").err.find("not closed"), std::string::npos);
+    EXPECT_NE(octavo("hexmesh out.obj").err.find("inside out"), std::string::npos);
+}
+
+TEST_F(Hexmesh, CallsAnEstimateAnEstimate) {
+    ASSERT_EQ(octavo("shape sphere --size 2 -o ball.off").exit_code, 0);
+    const auto result = [&](const std::string& more) {
+        return octavo("hexmesh ball.off --level 5 --json" + more).json()["result"];
+    };
+    EXPECT_TRUE(result("").contains("volume"));
+    EXPECT_FALSE(result(" --no-fractions").contains("volume"));
+    EXPECT_TRUE(result(" --no-fractions").contains("estimated_volume"));
+    const auto conforming = result(" --conforming");
+    EXPECT_NEAR(conforming["volume"].get<double>() / conforming["mesh_volume"].get<double>(), 1, 1e-12)
+        << "the cells, each wholly in";
 }
 
 }  // namespace
