@@ -63,11 +63,11 @@ Result<std::vector<mesh::Mesh>> read_solids(Session& session, const Context& con
 }
 
 Result<bool> unite_with_nothing(Session& session, const Context& context, const std::string& path,
-                                const Error& refusal, mesh::Mesh& solid) {
+                                const Error& refusal, const boolean::Options& options, mesh::Mesh& solid) {
     const double before = mesh::measure(solid).volume;
     if (before <= 0) return false;
     Result<boolean::Evaluated> united = session.timed(
-        "unite", [&] { return boolean::unite(std::span<const mesh::Mesh>(&solid, 1), {}, context); });
+        "unite", [&] { return boolean::unite(std::span<const mesh::Mesh>(&solid, 1), options, context); });
     if (!united && united.error().code == ErrorCode::cancelled) return united.error();
     if (!united || united->mesh.triangles.empty()) return false;
     session.warn(united_text(session, path, refusal, before, mesh::measure(united->mesh).volume));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <octavo/base/result.hpp>
+#include <octavo/boolean/evaluate.hpp>
 #include <octavo/io/openscad_csg.hpp>
 #include <octavo/mesh/mesh.hpp>
 
@@ -20,9 +21,9 @@ Result<std::vector<mesh::Mesh>> read_solids(Session& session, const Context& con
                                             const io::CsgReadOptions& csg);
 
 /// Makes the surface of a solid that `refusal` says is none anew by an exact union with nothing, which leaves what it winds
-/// about at least once, and warns of that. Leaves it as it is and says false when a union is no remedy: what is open, inside
-/// out or holds nothing. Errors: cancelled.
+/// about at least once, and warns of that. Leaves it as it is and says false when a union is no remedy: what is open, unless
+/// `options` close it, inside out or holds nothing. Errors: cancelled.
 Result<bool> unite_with_nothing(Session& session, const Context& context, const std::string& path,
-                                const Error& refusal, mesh::Mesh& solid);
+                                const Error& refusal, const boolean::Options& options, mesh::Mesh& solid);
 
 }  // namespace octavo::cli

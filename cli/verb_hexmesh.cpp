@@ -54,8 +54,10 @@ Result<hexmesh::Built> mesh_solids(Session& session, const Context& context, con
             meshing.overlaps = hexmesh::OverlapPolicy::winding;
             continue;
         }
-        const Result<bool> changed =
-            unite_with_nothing(session, context, options.inputs[solid], built.error(), solids[solid]);
+        boolean::Options uniting;
+        if (options.open == "winding") uniting.open = boolean::OpenOperands::winding;
+        const Result<bool> changed = unite_with_nothing(session, context, options.inputs[solid],
+                                                        built.error(), uniting, solids[solid]);
         if (!changed) return changed.error();
         if (!*changed) return built;
         united[solid] = true;

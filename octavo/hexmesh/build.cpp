@@ -50,10 +50,11 @@ Error open_error(const mesh::LatticeMesh& mesh, const std::vector<classic::OpenE
 }
 
 Error inside_out_error(std::vector<std::uint32_t> facets) {
-    Error error{
-        ErrorCode::not_a_solid,
-        "the surface is inside out: its volume is negative, since its facets run clockwise seen from outside",
-        {}};
+    Error error{ErrorCode::not_a_solid,
+                "the surface is inside out: its volume is negative, since its facets run clockwise seen from "
+                "outside; "
+                "repair turns such shells over",
+                {}};
     error.place.faces = std::move(facets);
     std::sort(error.place.faces.begin(), error.place.faces.end());
     return error;

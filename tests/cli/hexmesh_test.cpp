@@ -290,6 +290,16 @@ TEST_F(Hexmesh, MeshesTheUnionOfWhatOverlapsItselfAndWarns) {
             EXPECT_NEAR(result["volume"].get<double>(), expected + 8, 1e-5);
         }
     }
+    // What is open as well is closed first where that is asked for.
+    std::string open = overlapping_boxes;
+    open.erase(open.rfind("f "));
+    write("holed.obj", open);
+    EXPECT_EQ(octavo("hexmesh holed.obj -p 1").exit_code, 3);
+    const Ran closed = octavo("hexmesh holed.obj -p 1 --open winding --json");
+    ASSERT_EQ(closed.exit_code, 0) << closed.err;
+    EXPECT_NE(closed.err.find("overlaps itself"), std::string::npos) << closed.err;
+    EXPECT_NE(closed.err.find("close"), std::string::npos) << "and of the hole: " << closed.err;
+    EXPECT_NEAR(closed.json()["result"]["solids"][0]["exact_volume"], expected, 1e-5);
     // A union is no remedy for what is open or inside out.
     write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
     write("out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
