@@ -25,6 +25,7 @@ class CellIndex::Builder {
         const int level = top_level_for(items_.size());
         index_.top_level_ = level;
         const std::uint64_t cells = std::uint64_t{1} << (3 * level);
+        index_.kinds_.resize((cells + cells_a_word - 1) / cells_a_word);
         index_.top_.reserve(cells);
         index_.words_.reserve(count_words());
         Entry last, kept;  // Coarse leaves fill several cells in a row.
@@ -34,6 +35,8 @@ class CellIndex::Builder {
                 last = kept = entry;
                 if (entry.kind == Kind::gray) kept.value = keep_record(entry.value);
             }
+            index_.kinds_[cell / cells_a_word] |= static_cast<std::uint64_t>(kept.kind)
+                                                  << 2 * (cell % cells_a_word);
             index_.top_.push_back(static_cast<std::uint32_t>(kept.kind) << 30 | kept.value);
         }
     }

@@ -24,6 +24,9 @@
 //
 //     kind of cell i = bits i of A and B: 00 white, 10 black, 01 gray, 11 brick
 //
+// The kinds of the table's cells are also kept apart, two bits each: 64 KiB, which stay in the cache, tell nine of ten
+// places in a box what they are.
+//
 // Invariant: every place has one leaf. Cost: 24 bytes a brick and 4 a leaf, a quarter of a word for every cell, for two
 // more instructions a level.
 
@@ -51,6 +54,11 @@ class CellIndex {
     /// are copied. Twice the leaves and the words of the records must be fewer than 2^30.
     CellIndex(std::span<const Item> items, std::span<const std::uint32_t> records);
 
+    /// The kind that `top` will tell, from memory that is nearly always in the cache.
+    Kind top_kind(std::uint64_t code) const {
+        const std::uint64_t cell = code >> (3 * (octree::max_level - top_level_));
+        return static_cast<Kind>(kinds_[cell / cells_a_word] >> 2 * (cell % cells_a_word) & 3);
+    }
     /// Loads of one search that depend on each other: `top`, then `below` for as long as the kind is brick, with
     /// `level` growing by `brick_levels` from `top_level()`. `code` is that of the place, of octree::max_level.
     Entry top(std::uint64_t code) const {
@@ -71,6 +79,8 @@ class CellIndex {
         return {kind, words[head_words - 1 + static_cast<std::size_t>(begun)]};
     }
     Entry find(std::uint64_t code) const {
+        const Kind kind = top_kind(code);
+        if (kind == Kind::white || kind == Kind::black) return {kind, 0};
         Entry entry = top(code);
         for (int level = top_level_; entry.kind == Kind::brick; level += brick_levels) {
             prefetch_records(entry);
@@ -91,11 +101,14 @@ class CellIndex {
         __builtin_prefetch(words_.data() + brick.value + 16);
     }
 
-    std::size_t memory_bytes() const { return 4 * (top_.capacity() + words_.capacity()); }
+    std::size_t memory_bytes() const {
+        return 8 * kinds_.capacity() + 4 * (top_.capacity() + words_.capacity());
+    }
 
   private:
     static constexpr std::uint64_t brick_cells = std::uint64_t{1} << (3 * brick_levels);
     static constexpr std::size_t head_words = 6;
+    static constexpr std::uint64_t cells_a_word = 32;
     static constexpr std::uint32_t value_mask = (1U << 30) - 1;
 
     class Builder;
@@ -109,6 +122,7 @@ class CellIndex {
     using Array = std::vector<T, HugePageAllocator<T>>;
 
     int top_level_ = 0;
+    std::vector<std::uint64_t> kinds_;
     Array<std::uint32_t> top_;  ///< the cells of `top_level_` in Morton order, kind in the highest two bits
     Array<std::uint32_t>
         words_;  ///< bricks with their records, children before their parent; records of the table

@@ -85,8 +85,12 @@ void InsideQuery::answer_block(std::span<const Vec3> points, std::span<Side> sid
     for (std::size_t i = 0; i < points.size(); ++i) {
         sides[i] = Side::outside;
         if (!place(points[i], located[i])) continue;
+        // Which kind it is nobody foretells, so there are no branches.
+        const CellIndex::Kind kind = cells_.top_kind(located[i].code);
+        sides[i] = kind == CellIndex::Kind::black ? Side::inside : Side::outside;
         cells_.prefetch_top(located[i].code);
-        active[under_way++] = static_cast<std::uint8_t>(i);
+        active[under_way] = static_cast<std::uint8_t>(i);
+        under_way += kind >= CellIndex::Kind::gray;
     }
     // The first round looks into the table, the others into bricks.
     for (int level = cells_.top_level() - CellIndex::brick_levels; under_way > 0;
