@@ -25,9 +25,11 @@ struct BuildOptions {
 bp_octree::BuildOptions building(const BuildOptions& options) {
     bp_octree::BuildOptions building;
     building.depth = options.depth;
-    building.coalescing = options.coalesce == "mean"   ? bp_octree::Coalescing::mean
-                          : options.coalesce == "none" ? bp_octree::Coalescing::none
-                                                       : bp_octree::Coalescing::count;
+    using bp_octree::Coalescing;
+    building.coalescing = options.coalesce == "sum"    ? Coalescing::sum
+                          : options.coalesce == "mean" ? Coalescing::mean
+                          : options.coalesce == "none" ? Coalescing::none
+                                                       : Coalescing::count;
     building.least_mean = options.leaf_mean;
     building.leaf_triangles = static_cast<std::size_t>(options.leaf_triangles);
     building.quality = options.quality == "fast" ? bp_octree::Quality::fast : bp_octree::Quality::normal;
@@ -92,15 +94,15 @@ void add_build(Program& program) {
         ->type_name("N")
         ->capture_default_str();
     verb->add_option("--leaf-triangles", options->leaf_triangles,
-                     "Cells with at most this many triangles are not split")
+                     "Cells with at most this many triangles are not split; for --coalesce sum, siblings")
         ->check(whole_number(1, 1000000))
         ->type_name("N")
         ->capture_default_str();
     take_one_of(
         verb->add_option("--coalesce", options->coalesce,
-                         "What makes cells leaves above --depth: their number of triangles, the mean of "
-                         "siblings, or nothing"),
-        {"count", "mean", "none"});
+                         "What makes cells leaves above --depth: their number of triangles, the sum over "
+                         "siblings or their mean, or nothing"),
+        {"count", "sum", "mean", "none"});
     verb->add_option("--leaf-mean", options->leaf_mean,
                      "For --coalesce mean: siblings are joined until they have so many triangles on average")
         ->check(check_positive)

@@ -5,7 +5,7 @@
     bp_octree_thesis.py OCTAVO FOLDER [greedy|k-medoids] [normal|fast] > bench/results/DATE-bp-octree.csv
 
 FOLDER holds the models. Ours are other simplifications of the same scans; leaf_triangles is scaled by the number of
-triangles, so that leaves are as deep as the thesis's, whose leaves hold up to 50.
+triangles, so that leaves are as deep as the thesis's, whose leaves hold fewer than 50.
 """
 import json
 import subprocess
@@ -42,7 +42,7 @@ def main():
         tree = build(program, path, options)
         leaf = 50
         if name:
-            leaf = min(50, max(1, round(50 * tree["triangles"] / THESIS[name][0])))
+            leaf = min(50, max(1, 49 * tree["triangles"] // THESIS[name][0]))
         if leaf != 50:
             tree = build(program, path, [*options, "--leaf-triangles", str(leaf)])
         for level in tree["levels"]:

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -55,9 +56,13 @@ class Builder {
         : tree_(tree), options_(options), context_(context) {}
 
     Status run() {
-        if (options_.coalescing == Coalescing::mean) {
-            auto split =
-                split_by_mean(tree_.mesh, tree_.frame, options_.depth, options_.least_mean, context_);
+        if (options_.coalescing == Coalescing::sum || options_.coalescing == Coalescing::mean) {
+            constexpr double any = std::numeric_limits<double>::infinity();
+            const SiblingCriterion criterion =
+                options_.coalescing == Coalescing::sum
+                    ? SiblingCriterion{static_cast<double>(options_.leaf_triangles), any}
+                    : SiblingCriterion{any, options_.least_mean};
+            auto split = split_by_siblings(tree_.mesh, tree_.frame, options_.depth, criterion, context_);
             if (!split) return std::move(split).error();
             split_ = std::move(*split);
         }
@@ -165,6 +170,7 @@ class Builder {
         switch (options_.coalescing) {
             case Coalescing::count:
                 return triangles <= options_.leaf_triangles;
+            case Coalescing::sum:
             case Coalescing::mean:
                 return !std::binary_search(split_.begin(), split_.end(), cell.key());
             case Coalescing::none:
@@ -263,7 +269,7 @@ class Builder {
     BpOctree& tree_;
     const BuildOptions& options_;
     const Context& context_;
-    std::vector<octree::CellKey> split_;  ///< for Coalescing::mean
+    std::vector<octree::CellKey> split_;  ///< for Coalescing::sum and mean
     std::uint64_t splits_ = 0;
     double settled_volume_ = 0;  ///< of leaves and black cells on the levels so far
     std::mutex pool_mutex_;

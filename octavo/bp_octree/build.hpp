@@ -31,7 +31,7 @@ enum class PlaneChoice : std::uint8_t {
 struct BuildOptions {
     /// What makes a cell a leaf above `depth`.
     Coalescing coalescing = Coalescing::count;
-    /// For Coalescing::count: a cell with at most this many triangles is a leaf.
+    /// For Coalescing::count: a cell with at most this many triangles is a leaf. For sum: the most that siblings have.
     std::size_t leaf_triangles = 50;
     /// For Coalescing::mean.
     double least_mean = 20;

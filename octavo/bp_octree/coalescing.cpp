@@ -12,14 +12,14 @@ namespace {
 using octree::Cell;
 using Triangles = std::vector<mesh::FaceIndex>;
 
-class SplitByMean {
+class SplitBySiblings {
   public:
-    SplitByMean(const mesh::LatticeMesh& mesh, const Frame& frame, int depth, double least_mean,
-                const Context& context)
+    SplitBySiblings(const mesh::LatticeMesh& mesh, const Frame& frame, int depth,
+                    const SiblingCriterion& criterion, const Context& context)
         : mesh_(mesh),
           frame_(frame),
           depth_(depth),
-          least_mean_(least_mean),
+          criterion_(criterion),
           context_(context),
           octants_(static_cast<std::size_t>(depth)) {}
 
@@ -35,9 +35,7 @@ class SplitByMean {
   private:
     /// Whether all below the cell, which meets these triangles, becomes one leaf.
     bool joins(const Cell& cell, const Triangles& triangles) {
-        // No mean below reaches what all of them together do not.
-        if (cell.level == depth_ || static_cast<double>(triangles.size()) < least_mean_ ||
-            context_.cancelled())
+        if (cell.level == depth_ || criterion_.always_joins(triangles.size()) || context_.cancelled())
             return true;
         auto& octants = octants_[static_cast<std::size_t>(cell.level)];
         for (Triangles& octant : octants) octant.clear();
@@ -51,7 +49,7 @@ class SplitByMean {
             ++met;
             if (!joins(cell.child(i), octant)) all_join = false;
         }
-        if (all_join && static_cast<double>(sum) < least_mean_ * static_cast<double>(met)) return true;
+        if (all_join && criterion_.joins(sum, met)) return true;
         split_.push_back(cell.key());
         return false;
     }
@@ -59,7 +57,7 @@ class SplitByMean {
     const mesh::LatticeMesh& mesh_;
     const Frame& frame_;
     int depth_;
-    double least_mean_;
+    SiblingCriterion criterion_;
     const Context& context_;
     std::vector<std::array<Triangles, 8>> octants_;  ///< of the cell of each level that is looked at
     std::vector<octree::CellKey> split_;
@@ -67,9 +65,10 @@ class SplitByMean {
 
 }  // namespace
 
-Result<std::vector<octree::CellKey>> split_by_mean(const mesh::LatticeMesh& mesh, const Frame& frame,
-                                                   int depth, double least_mean, const Context& context) {
-    return SplitByMean(mesh, frame, depth, least_mean, context).run();
+Result<std::vector<octree::CellKey>> split_by_siblings(const mesh::LatticeMesh& mesh, const Frame& frame,
+                                                       int depth, const SiblingCriterion& criterion,
+                                                       const Context& context) {
+    return SplitBySiblings(mesh, frame, depth, criterion, context).run();
 }
 
 }  // namespace octavo::bp_octree

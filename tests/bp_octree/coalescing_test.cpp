@@ -104,16 +104,28 @@ TEST(Coalescing, LeavesAreThoseThatJoiningFromBelowGives) {
                       return joined.size() <= most;
                   }));
     }
+    const auto sum_of = [](const std::vector<Faces>& octants) {
+        std::size_t sum = 0;
+        for (const Faces& octant : octants) sum += octant.size();
+        return sum;
+    };
+    options.coalescing = Coalescing::sum;
+    for (const std::size_t most : {1, 9, 30, 5000}) {
+        options.leaf_triangles = most;
+        const auto joins = [&](const std::vector<Faces>& octants, const Faces&) {
+            return sum_of(octants) <= most;
+        };
+        EXPECT_EQ(leaves_of(built()), joined_from_below(cells, joins));
+    }
     options.coalescing = Coalescing::mean;
     std::set<std::size_t> sizes;
     for (const double least : {0.5, 2.0, 5.5, 12.0, 1e6}) {
         options.least_mean = least;
         const Cells leaves = leaves_of(built());
-        EXPECT_EQ(leaves, joined_from_below(cells, [&](const std::vector<Faces>& octants, const Faces&) {
-                      std::size_t sum = 0;
-                      for (const Faces& octant : octants) sum += octant.size();
-                      return static_cast<double>(sum) < least * static_cast<double>(octants.size());
-                  }));
+        const auto joins = [&](const std::vector<Faces>& octants, const Faces&) {
+            return static_cast<double>(sum_of(octants)) < least * static_cast<double>(octants.size());
+        };
+        EXPECT_EQ(leaves, joined_from_below(cells, joins));
         sizes.insert(leaves.size());
     }
     EXPECT_EQ(sizes.size(), 5U);

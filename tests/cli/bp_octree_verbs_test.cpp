@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <set>
+
 #include "cli/program.hpp"
 
 // The verbs of BP-octrees (build, stats, convert --level, contains and distance on .bpo), and `distance`.
@@ -57,6 +59,19 @@ TEST_F(BpOctreeVerbs, NoMoreOfALargeFileIsReadThanIsAskedFor) {
     EXPECT_EQ(arrived["levels"], built["levels"].size());
     EXPECT_GT(arrived["triangles"], built["triangles"].get<std::uint64_t>() / 2);
     EXPECT_LT(arrived["triangles"], built["triangles"]);
+}
+
+TEST_F(BpOctreeVerbs, LeavesFollowTheCriterionOfTheirSiblings) {
+    ASSERT_EQ(octavo("shape knot --detail 96 -o knot.ply").exit_code, 0);
+    std::set<std::uint64_t> leaves;
+    for (const char* criterion : {"count", "sum", "mean --leaf-mean 8", "none"}) {
+        const Ran ran = octavo("build knot.ply --depth 6 --quality fast --certify --json --coalesce " +
+                               std::string(criterion));
+        ASSERT_EQ(ran.exit_code, 0) << ran.err;
+        leaves.insert(ran.json()["result"]["leaves"].get<std::uint64_t>());
+    }
+    EXPECT_EQ(leaves.size(), 4U);
+    EXPECT_EQ(octavo("build knot.ply --coalesce most").exit_code, 2);
 }
 
 TEST_F(BpOctreeVerbs, BuildIsTheSameForAnyNumberOfThreads) {
