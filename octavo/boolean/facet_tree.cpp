@@ -51,7 +51,6 @@ FacetTree::FacetTree(const Soup& soup, const Context& context, double reach) : r
     const auto margin = reach < 1 ? 0 : static_cast<std::int32_t>(std::ceil(reach / 2));
     ordinary_ = BoxTree(soup, std::move(ordinary), margin, context);
     long_ = BoxTree(soup, std::move(long_ones), margin, context);
-    slabs_ = FacetSlabs(soup, long_);
 }
 
 std::vector<FacetTree::Task> FacetTree::pair_tasks(std::size_t count) const {

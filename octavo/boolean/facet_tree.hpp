@@ -7,20 +7,19 @@
 
 #include <octavo/boolean/box_tree.hpp>
 #include <octavo/boolean/facet_prism.hpp>
-#include <octavo/boolean/facet_slabs.hpp>
 
 // Finds the pairs of facets of a soup that may meet, and the facets on a ray.
 //
 // Facets of ordinary size are in one tree of boxes; all pairs of boxes that meet are found in one descent of the
 // tree against itself. *Long* facets, those whose box is much larger than the facets of an even mesh would be, are in
 // a tree of their own: among the others they would blow up the boxes of whole nodes, and with them the number
-// of pairs. Each long facet descends both trees by itself, past the boxes that its plane and edges miss, and past those
-// of long facets that lie in a slab beside it. So a fan of slivers costs what the slivers come near, not the product of
-// all that their boxes overlap.
+// of pairs. Each long facet descends both trees by itself, past the boxes that its plane and edges miss. So a fan of
+// slivers costs what the slivers come near, not the product of all that their boxes overlap.
 //
 // What is left of pairs whose boxes meet goes through facet_filter.hpp.
 // Tried and lost: to cut long facets into the cells that they cross. Slivers of one fan are neighbours in every cell
-// along their length, and each cell pays for them again.
+// along their length, and each cell pays for them again. And slabs about the long facets below each box, along their mean
+// normal: 3 % of the time of the worst pair of fans, which a page of code is too much for.
 
 namespace octavo::boolean {
 
@@ -51,8 +50,8 @@ class FacetTree {
         }
         for (std::uint32_t position = task.first; position < task.second; ++position) {
             const LongFacet facet(long_, position, reach_);
-            meet_long(facet, ordinary_, nullptr, 0, visit);
-            meet_long(facet, long_, &slabs_, position + 1, visit);
+            meet_long(facet, ordinary_, 0, visit);
+            meet_long(facet, long_, position + 1, visit);
         }
     }
 
@@ -116,17 +115,15 @@ class FacetTree {
 
     /// With the facets of `tree` from position `begin` on.
     template <class Visit>
-    void meet_long(const LongFacet& facet, const BoxTree& tree, const FacetSlabs* slabs, std::size_t begin,
-                   const Visit& visit) const {
-        if (!tree.empty()) meet_long(facet, tree, slabs, begin, tree.top(), 0, visit);
+    void meet_long(const LongFacet& facet, const BoxTree& tree, std::size_t begin, const Visit& visit) const {
+        if (!tree.empty()) meet_long(facet, tree, begin, tree.top(), 0, visit);
     }
     template <class Visit>
-    void meet_long(const LongFacet& facet, const BoxTree& tree, const FacetSlabs* slabs, std::size_t begin,
-                   std::uint32_t level, std::uint32_t number, const Visit& visit) const {
+    void meet_long(const LongFacet& facet, const BoxTree& tree, std::size_t begin, std::uint32_t level,
+                   std::uint32_t number, const Visit& visit) const {
         const BoxNode& node = tree.node(level, number);
         unsigned hits = meeting(node, facet.box, facet.lane);
         if (level == 0 && begin > number * width) hits &= ~0u << (begin - number * width);
-        if (hits && slabs) hits = slabs->meeting(level, number, facet.block, facet.lane, hits, reach_);
         if (level > 0) {
             hits = facet.prism.meeting(node, hits);
         } else {
@@ -138,7 +135,7 @@ class FacetTree {
             if (level == 0)
                 visit(facet.facet, tree.facet(child));
             else if ((std::size_t{child} + 1) << (3 * level) > begin)
-                meet_long(facet, tree, slabs, begin, level - 1, child, visit);
+                meet_long(facet, tree, begin, level - 1, child, visit);
         }
     }
 
@@ -165,7 +162,6 @@ class FacetTree {
 
     double reach_ = 0;
     BoxTree ordinary_, long_;
-    FacetSlabs slabs_;  ///< of the long facets
 };
 
 }  // namespace octavo::boolean
