@@ -20,11 +20,13 @@
 //
 // Why nothing can open, cross or turn over: every step is a subdivision, which all facets at an edge share, or moves a
 // vertex for all facets that have it. Both keep the surface of every operand closed, so it is an operand like any
-// other, and what is evaluated is exact, closed and manifold as ever. No point of a surface moves by more than the
+// other, and what is evaluated is exact, closed and manifold as ever. Where a surface closes by T-junctions, facets are
+// split there before anything moves (t_junctions.hpp). No point of a surface moves by more than the
 // tolerance a round, so winding numbers farther from all surfaces than the moves are what they were: the result
 // differs only there, by a volume of at most displacement times area.
 // A sheet that cannot be subdivided so (a folded one, one that is not plane within three tolerances) is left to its
-// facets one by one: the surface stays closed and slivers remain.
+// facets one by one: the surface stays closed and slivers remain. Where that goes on round after round, all is taken back
+// and done again without those facets: what cannot be joined stays as it was.
 //
 // Not joined: what is near only to a line or point in which facets cut each other; where that leaves a thin shell,
 // thin_shells.hpp takes it away.
@@ -45,10 +47,11 @@ struct FlushReport {
     std::size_t joined_facets = 0;   ///< subdivided together with others that they lie on
     std::size_t removed_facets =
         0;  ///< slivers that vanished, and triangles that became one with or cancelled another
-    double largest_move = 0;                  ///< of a point of a surface in one round, in world units
-    std::size_t removed_shells = 0;           ///< of the result, thinner than the tolerance (thin_shells.hpp)
-    std::size_t folded_facets = 0;            ///< left alone, because they could not be subdivided together
-    bool settled = true;                      ///< nothing is near any more without touching
+    double largest_move = 0;         ///< of a point of a surface in one round, in world units
+    std::size_t removed_shells = 0;  ///< of the result, thinner than the tolerance (thin_shells.hpp)
+    std::size_t folded_facets = 0;   ///< could not be subdivided together in the last round
+    std::size_t left_alone = 0;      ///< input facets that are near others but could not be joined to them
+    bool settled = true;             ///< else nothing was joined
     std::vector<mesh::Source> first_removed;  ///< up to 8
 };
 

@@ -84,22 +84,31 @@ class NearSearch {
         found_.at_vertex.push_back({std::min(a, b), std::max(a, b)});
     }
 
-    /// Where a vertex lies on another facet: at a corner, on edges, or inside.
-    void place(std::uint32_t vertex, Point point, const Side& side) {
+    bool is_at_corner(std::uint32_t vertex, Point point, const Side& side) {
         for (int k = 0; k < 3; ++k)
             if (length(between(side.point[k], point)) <= tolerance_) {
                 add_vertices(vertex, side.corner[k]);
-                return;
+                return true;
             }
+        return false;
+    }
+
+    /// Where a vertex lies on another facet: at a corner, on edges, or inside.
+    void place(std::uint32_t vertex, Point point, const Side& side) {
+        const bool at_corner = is_at_corner(vertex, point, side);
         bool on_edge = false;
         for (int k = 0; k < 3; ++k) {
             const Point a = side.point[k], b = side.point[(k + 1) % 3];
             const Foot foot_on = foot(a, b, point);
-            if (foot_on.at <= 0 || foot_on.at >= 1 || foot_on.distance > tolerance_) continue;
+            if (foot_on.at <= 0 || foot_on.at >= 1) continue;
+            // What lies on an edge is told however near it is to a corner: the surface may close there (t_junctions.hpp).
+            const bool exact = foot_on.distance < 1 && exact::collinear(a, b, point);
+            if (!exact && (at_corner || foot_on.distance > tolerance_)) continue;
             on_edge = true;
-            found_.on_edge.push_back({side.edge(k), vertex, exact::collinear(a, b, point)});
+            found_.on_edge.push_back({side.edge(k), vertex, exact});
         }
-        if (on_edge || std::fabs(dot(side.normal, between(side.point[0], point))) > tolerance_ * side.area2)
+        if (at_corner || on_edge ||
+            std::fabs(dot(side.normal, between(side.point[0], point))) > tolerance_ * side.area2)
             return;
         for (int k = 0; k < 3; ++k) {
             const Vec3 along = between(side.point[k], side.point[(k + 1) % 3]);
@@ -166,11 +175,12 @@ void append(std::vector<Each>& all, std::vector<Each>& part) {
 
 }  // namespace
 
-bool NearContacts::any_inexact() const {
-    const auto inexact = [](const auto& list) {
-        return std::any_of(list.begin(), list.end(), [](const auto& each) { return !each.exact; });
+std::size_t NearContacts::inexact() const {
+    const auto count = [](const auto& list) {
+        return static_cast<std::size_t>(
+            std::count_if(list.begin(), list.end(), [](const auto& each) { return !each.exact; }));
     };
-    return !at_vertex.empty() || inexact(on_edge) || inexact(on_facet) || inexact(crossings);
+    return at_vertex.size() + count(on_edge) + count(on_facet) + count(crossings);
 }
 
 NearContacts find_near_contacts(const Soup& soup, const FacetTree& tree, double tolerance,

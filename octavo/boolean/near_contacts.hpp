@@ -63,8 +63,8 @@ struct NearContacts {
     std::vector<Crossing> crossings;
     std::vector<Faces> faces;
 
-    /// Whether anything is near without touching.
-    bool any_inexact() const;
+    /// How much is near without touching.
+    std::size_t inexact() const;
 };
 
 /// All that is not farther apart than `tolerance`, in lattice units. `tree` must have been built with that reach or a
