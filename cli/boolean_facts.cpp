@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -17,36 +16,6 @@
 
 namespace octavo::cli {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Where the first number after "operand " or "operands " stands, else npos.
-std::size_t operand_number(std::string_view sentence) {
-    const std::string_view word = "operand";
-    for (std::size_t at = sentence.find(word); at != sentence.npos; at = sentence.find(word, at + 1)) {
-        std::size_t end = at + word.size();
-        if (end < sentence.size() && sentence[end] == 's') ++end;
-        if (end + 1 < sentence.size() && sentence[end] == ' ' && is_digit(sentence[end + 1])) return end + 1;
-    }
-    return sentence.npos;
-}
-
-/// A warning of the library, which says "operand 1" and "operands 0, 2", with names instead.
-std::string with_names(const std::string& sentence, const std::vector<std::string>& names) {
-    const std::size_t first = operand_number(sentence);
-    if (names.empty() || first == std::string::npos) return sentence;
-    std::string named = sentence.substr(0, sentence.rfind("operand", first));
-    for (std::size_t at = first;;) {
-        std::size_t end = at;
-        while (end < sentence.size() && is_digit(sentence[end])) ++end;
-        named += names.at(std::stoul(sentence.substr(at, end - at)));
-        const bool more =
-            sentence.compare(end, 2, ", ") == 0 && end + 2 < sentence.size() && is_digit(sentence[end + 2]);
-        if (!more) return named + sentence.substr(end);
-        named += ", ";
-        at = end + 2;
-    }
-}
 
 std::optional<double> parse_length(const std::string& text) {
     double number = 0;
@@ -69,16 +38,22 @@ Json facts_of(const boolean::FlushReport& flush) {
             {"first_removed", removed},
             {"removed_shells", flush.removed_shells},
             {"folded_facets", flush.folded_facets},
+            {"left_alone", flush.left_alone},
             {"largest_move", flush.largest_move},
             {"settled", flush.settled}};
 }
 
+/// Whether coordinates are rounded to floats in the format.
+bool holds_floats(const std::string& format) { return format == "stl"; }
+
 void tell(Session& session, const boolean::Evaluated& evaluated, const std::string& output,
-          const OperandNames& operands) {
+          const std::string& format) {
     const mesh::Measures measures = mesh::measure(evaluated.mesh);
     const boolean::Report& report = evaluated.report;
-    for (const std::string& warning : report.warnings)
-        session.warn(with_names(warning, operands.names.empty() ? operands.files : operands.names));
+    session.warn(report.warnings);
+    if (holds_floats(format) && report.largest_rounding > 0)
+        session.warn("binary STL holds floats: coordinates were rounded by up to " +
+                     number_text(report.largest_rounding));
     session.result = {{"triangles", evaluated.mesh.triangles.size()},
                       {"vertices", evaluated.mesh.vertices.size()},
                       {"volume", measures.volume},
@@ -115,8 +90,9 @@ void tell(Session& session, const boolean::Evaluated& evaluated, const std::stri
 
 }  // namespace
 
-boolean::Options BooleanOutput::evaluation(boolean::Tolerance standard) const {
+boolean::Options BooleanOutput::evaluation(const std::string& settled, boolean::Tolerance standard) const {
     boolean::Options options;
+    options.numbers = holds_floats(settled) ? boolean::Numbers::floats : boolean::Numbers::doubles;
     options.tolerance = tolerance.empty()
                             ? standard
                             : boolean::Tolerance{*parse_length(tolerance), boolean::Tolerance::Of::length};
@@ -156,19 +132,18 @@ void add_boolean_options(Verb* verb, BooleanOutput& options) {
     add_to_option(verb, options.format, mesh_outputs());
 }
 
-Error error_of_operand(Error error, const BooleanOutput& options, const OperandNames& operands) {
+Error with_advice(Error error, const BooleanOutput& options) {
     if (error.code == ErrorCode::not_a_solid && options.open == "reject")
         error.sentence += "; --open winding takes such operands";
-    return in_its_file(std::move(error), "operand", operands.files, operands.names);
+    return error;
 }
 
 Result<ExitCode> write_boolean(Session& session, const Context& context, const boolean::Evaluated& evaluated,
-                               const std::string& output, const std::string& format,
-                               const OperandNames& operands) {
+                               const std::string& output, const std::string& format) {
     Result<io::WriteReport> written =
         write_mesh(session, context, output, evaluated.mesh, {.format = format});
     if (!written) return std::move(written).error();
-    tell(session, evaluated, output, operands);
+    tell(session, evaluated, output, format);
     return ExitCode::ok;
 }
 

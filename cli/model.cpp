@@ -303,19 +303,4 @@ Error in_its_file(Error error, const std::vector<std::string>& paths, const std:
     return in_file(std::move(error), paths[operand]);
 }
 
-Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths,
-                  const std::vector<std::string>& names) {
-    if (error.place.operand) return in_its_file(std::move(error), paths, names);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        const std::string prefix = noun + " " + std::to_string(i);
-        for (const std::string& after : {prefix + ": ", prefix + " "}) {
-            if (!error.sentence.starts_with(after)) continue;
-            error.sentence.erase(0, after.size());
-            if (!names.empty()) error.sentence.insert(0, names[i] + " ");
-            return in_file(std::move(error), paths[i]);
-        }
-    }
-    return error;
-}
-
 }  // namespace octavo::cli

@@ -103,10 +103,6 @@ Error in_file(Error error, const std::string& path);
 Error in_its_file(Error error, const std::vector<std::string>& paths,
                   const std::vector<std::string>& names = {});
 
-/// The same for sentences that begin with "operand 3".
-Error in_its_file(Error error, const std::string& noun, const std::vector<std::string>& paths,
-                  const std::vector<std::string>& names = {});
-
 /// Three numbers for `--json`.
 inline Json json_of(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 

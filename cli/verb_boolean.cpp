@@ -79,11 +79,13 @@ Result<ExitCode> evaluate(Session& session, const BooleanOptions& options, Opera
     if (!format) return format.error();
     Result<std::vector<mesh::Mesh>> operands = read_operands(session, context, options);
     if (!operands) return std::move(operands).error();
+    boolean::Options evaluation = options.output.evaluation(*format);
+    evaluation.names = options.operands;
     Result<boolean::Evaluated> evaluated =
-        session.timed("evaluate", [&] { return operation(*operands, options.output.evaluation(), context); });
-    const OperandNames names{options.operands};
-    if (!evaluated) return error_of_operand(std::move(evaluated).error(), options.output, names);
-    return write_boolean(session, context, *evaluated, options.output.output, *format, names);
+        session.timed("evaluate", [&] { return operation(*operands, evaluation, context); });
+    if (!evaluated)
+        return in_its_file(with_advice(std::move(evaluated).error(), options.output), options.operands);
+    return write_boolean(session, context, *evaluated, options.output.output, *format);
 }
 
 void add_operation(Program& program, const char* name, const char* summary, Operation operation) {

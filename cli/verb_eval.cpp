@@ -59,7 +59,8 @@ Result<std::vector<std::string>> files_of(Session& session, const boolean::Formu
 
 Result<boolean::Evaluated> evaluate_formula(Session& session, const Context& context,
                                             const EvalOptions& options, const boolean::Formula& formula,
-                                            const std::vector<std::string>& files) {
+                                            const std::vector<std::string>& files,
+                                            const std::string& format) {
     std::vector<mesh::Mesh> meshes;
     for (const std::string& file : files) {
         Result<io::ReadMesh> read = read_operand(session, context, file);
@@ -68,13 +69,14 @@ Result<boolean::Evaluated> evaluate_formula(Session& session, const Context& con
     }
     std::vector<const mesh::Mesh*> operands;
     for (const mesh::Mesh& mesh : meshes) operands.push_back(&mesh);
-    return session.timed("evaluate", [&] {
-        return boolean::evaluate(operands, formula.program, options.output.evaluation(), context);
-    });
+    boolean::Options evaluation = options.output.evaluation(format);
+    evaluation.names = formula.names;
+    return session.timed("evaluate",
+                         [&] { return boolean::evaluate(operands, formula.program, evaluation, context); });
 }
 
-Result<boolean::Evaluated> evaluate_csg(Session& session, const Context& context,
-                                        const EvalOptions& options) {
+Result<boolean::Evaluated> evaluate_csg(Session& session, const Context& context, const EvalOptions& options,
+                                        const std::string& format) {
     session.inputs.push_back(options.expression);
     io::CsgReadOptions reading;
     reading.faceted = true;
@@ -85,7 +87,8 @@ Result<boolean::Evaluated> evaluate_csg(Session& session, const Context& context
     session.warn(file->warnings);
     return session.timed("evaluate", [&] {
         return boolean::evaluate(file->expression,
-                                 options.output.evaluation({2e-6, boolean::Tolerance::Of::size}), context);
+                                 options.output.evaluation(format, {2e-6, boolean::Tolerance::Of::size}),
+                                 context);
     });
 }
 
@@ -96,7 +99,7 @@ Result<ExitCode> eval_csg(Session& session, const EvalOptions& options) {
     const Result<std::string> format = settle_output(session, {options.expression}, options.output.output,
                                                      options.output.format, mesh_outputs());
     if (!format) return format.error();
-    const Result<boolean::Evaluated> evaluated = evaluate_csg(session, context, options);
+    const Result<boolean::Evaluated> evaluated = evaluate_csg(session, context, options, *format);
     if (!evaluated) return in_file(evaluated.error(), options.expression);
     return write_boolean(session, context, *evaluated, options.output.output, *format);
 }
@@ -112,10 +115,10 @@ Result<ExitCode> eval(Session& session, const EvalOptions& options) {
         settle_output(session, *files, options.output.output, options.output.format, mesh_outputs());
     if (!format) return format.error();
     const Result<boolean::Evaluated> evaluated =
-        evaluate_formula(session, context, options, *formula, *files);
-    const OperandNames names{*files, formula->names};
-    if (!evaluated) return error_of_operand(evaluated.error(), options.output, names);
-    return write_boolean(session, context, *evaluated, options.output.output, *format, names);
+        evaluate_formula(session, context, options, *formula, *files, *format);
+    if (!evaluated)
+        return in_its_file(with_advice(evaluated.error(), options.output), *files, formula->names);
+    return write_boolean(session, context, *evaluated, options.output.output, *format);
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
+#include <octavo/base/counted.hpp>
 #include <octavo/boolean/assemble.hpp>
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/boolean/rounding_faults.hpp>
@@ -75,9 +77,18 @@ void note_flush(const FlushReport& flush, Report& report) {
         report.warnings.push_back(std::to_string(flush.folded_facets) +
                                   " facets lie near others within the tolerance but could not be joined to "
                                   "them; slivers may remain");
-    else if (!flush.settled)
-        report.warnings.push_back("after " + std::to_string(flush.rounds) +
-                                  " rounds something is still nearer than the tolerance without touching");
+    if (flush.left_alone > 0)
+        report.warnings.push_back(counted(flush.left_alone, "facet lies", "facets lie") +
+                                  " near others within the tolerance but could not be joined to them; " +
+                                  (flush.settled ? "those stay as they were" : "nothing was made flush"));
+}
+
+Numbers usable_numbers(const exact::Lattice& lattice, Numbers asked, Report& report) {
+    if (hold_shapes(lattice, asked)) return asked;
+    report.warnings.push_back(
+        "so far from the origin floats are too coarse for shapes of this size; the result is made for "
+        "doubles");
+    return Numbers::doubles;
 }
 
 /// Facets at fault that go with their shells are none any more.
@@ -95,7 +106,16 @@ void drop_thin(Assembled& assembled, RoundingFaults& faults, FlushReport& flush)
     faults = std::move(left);
 }
 
-void note_faults(const RoundingFaults& faults, Report& report) {
+/// ", the first near (1.5, 2, 0.25)".
+std::string place_of(const mesh::Mesh& mesh, std::uint32_t facet) {
+    const mesh::Triangle& t = mesh.triangles[facet];
+    const Vec3 middle = (1.0 / 3) * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
+    char text[128];
+    std::snprintf(text, sizeof text, ", the first near (%.7g, %.7g, %.7g)", middle.x, middle.y, middle.z);
+    return text;
+}
+
+void note_faults(const RoundingFaults& faults, const mesh::Mesh& mesh, Numbers numbers, Report& report) {
     constexpr std::size_t named = 8;
     report.mended_points = faults.moved_points;
     report.inverted_facets = faults.inverted.size();
@@ -104,19 +124,23 @@ void note_faults(const RoundingFaults& faults, Report& report) {
         report.first_inverted.push_back(faults.inverted[i]);
     for (std::size_t i = 0; i < std::min(named, faults.crossing.size()); ++i)
         report.first_crossing.push_back(faults.crossing[i]);
-    const auto warn = [&](std::size_t count, std::size_t listed, std::string sentence, const auto& name) {
+    const std::string rounding = numbers == Numbers::floats ? "rounding to floats" : "rounding to doubles";
+    const auto warn = [&](std::size_t count, std::size_t listed, std::string sentence, std::uint32_t first,
+                          const auto& name) {
         if (count == 0) return;
         for (std::size_t i = 0; i < listed; ++i) sentence += (i ? ", " : "") + name(i);
-        report.warnings.push_back(sentence + (count > listed ? ", …" : ""));
+        report.warnings.push_back(sentence + (count > listed ? ", …" : "") + place_of(mesh, first));
     };
     warn(report.inverted_facets, report.first_inverted.size(),
-         "rounding to doubles turned over or flattened " + std::to_string(report.inverted_facets) +
-             " facets of the result: ",
+         rounding + " turned over or flattened " +
+             counted(report.inverted_facets, "facet of the result: ", "facets of the result: "),
+         faults.inverted.empty() ? 0 : faults.inverted[0],
          [&](std::size_t i) { return std::to_string(report.first_inverted[i]); });
     warn(report.crossing_facets, report.first_crossing.size(),
-         "rounding to doubles made " + std::to_string(report.crossing_facets) +
-             " pairs of facets of the result cross: ",
-         [&](std::size_t i) {
+         rounding + " made " +
+             counted(report.crossing_facets,
+                     "pair of facets of the result cross: ", "pairs of facets of the result cross: "),
+         faults.crossing.empty() ? 0 : faults.crossing[0].first, [&](std::size_t i) {
              return std::to_string(report.first_crossing[i].first) + " and " +
                     std::to_string(report.first_crossing[i].second);
          });
@@ -132,7 +156,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     const std::uint64_t exact_before = exact::predicate_counts().exact();
 
     phases.begin("snap", 0.0);
-    Result<Soup> soup = make_soup(operands, options.open, context);
+    Result<Soup> soup = make_soup(operands, options.open, options.names, context);
     if (!soup) return soup.error();
     note_input(*soup, report);
 
@@ -146,7 +170,8 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     }
 
     phases.begin("index", 0.15);
-    const FacetTree tree(*soup, context, contact_reach(soup->lattice));
+    const Numbers numbers = usable_numbers(soup->lattice, options.numbers, report);
+    const FacetTree tree(*soup, context, contact_reach(soup->lattice, numbers));
 
     phases.begin("meet", 0.25);
     PointTable points(*soup);
@@ -177,7 +202,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     if (context.cancelled()) return Context::cancelled_error();
     if (options.simplify == Simplify::coplanar)
         surface = merge_coplanar(std::move(surface), *soup, contacts.faces, points, context);
-    RoundedPoints rounded(*soup, points, context);
+    RoundedPoints rounded(*soup, points, numbers, context);
     if (context.cancelled()) return Context::cancelled_error();
     RoundingFaults faults = mend_rounding(surface, *soup, contacts.near, rounded, context);
     if (context.cancelled()) return Context::cancelled_error();
@@ -199,7 +224,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     report.largest_rounding = rounded.largest_rounding() + faults.farthest_move * soup->lattice.unit();
     report.duplicated_vertices = assembled.duplicated_vertices;
     if (assembled.mesh.triangles.empty()) report.warnings.push_back("the result is empty");
-    note_faults(faults, report);
+    note_faults(faults, assembled.mesh, numbers, report);
     report.exact_fallbacks = exact::predicate_counts().exact() - exact_before;
     result.mesh = std::move(assembled.mesh);
     return result;

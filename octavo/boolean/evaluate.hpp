@@ -11,6 +11,7 @@
 #include <octavo/boolean/classify.hpp>
 #include <octavo/boolean/flush.hpp>
 #include <octavo/boolean/program.hpp>
+#include <octavo/boolean/rounded_points.hpp>
 #include <octavo/boolean/soup.hpp>
 #include <octavo/mesh/mesh.hpp>
 
@@ -24,8 +25,8 @@
 // (where the solid touches itself, vertices are doubled), no T-junctions; facets that nothing cut are the input's;
 // the same bytes for any number of threads.
 // Not guaranteed: detail finer than the lattice (2^-26 of the joint bounds), and that the smallest facets survive the
-// rounding of exact intersection points to doubles. Those that it turns over or makes cross are found by an exact test
-// of what leaves the library and mended by taking points to other doubles nearby; the report names those left.
+// rounding of exact intersection points to doubles, or floats. Those that it turns over or makes cross are found by an
+// exact test of what leaves the library and mended by taking points to other numbers nearby; the report names those left.
 // Source: C. J. Ogayar, F. R. Feito, R. J. Segura, M. Rivero, Evaluación optimizada de árboles CSG de sólidos
 // triangulados de forma libre, 2008 (one pass over the whole tree: cut only what meets, classify groups by one
 // point, select by the expression). We depart from it in exactness, in winding numbers instead of in/out/on, and
@@ -54,6 +55,8 @@ struct Options {
     Tolerance tolerance{};
     OpenOperands open = OpenOperands::reject;
     Dangling dangling = Dangling::dropped;  ///< faces that closed operands share outside of the result
+    Numbers numbers = Numbers::doubles;     ///< that the result will be written as
+    std::vector<std::string> names{};       ///< of operands, for warnings
 };
 
 struct Report {
@@ -98,7 +101,7 @@ struct Evaluated {
 };
 
 /// Evaluates `program` over closed meshes; operand k of the program is `operands[k]`.
-/// Errors: not_a_solid when an operand is open or inconsistently oriented and `open` rejects that (with facet ids),
+/// Errors: not_a_solid when an operand is open or inconsistently oriented and `open` rejects that (with operand and facets),
 /// bad_input when a mesh is malformed, the tolerance no length, or the result unbounded, limit when the operands have no common lattice, cancelled.
 Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Program& program,
                            const Options& options = {}, const Context& context = {});

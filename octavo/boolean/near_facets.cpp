@@ -29,8 +29,8 @@ class PairSearch {
   public:
     PairSearch(const Surface& surface, const Soup& soup, const RoundedPoints& rounded, const Context& context)
         : surface_(surface), soup_(soup), rounded_(rounded), context_(context), merged_(surface.merged) {
-        const double units = 4 * placing_bound(soup.lattice) * exact::universe_side;
-        tight_distance_ = units / contact_reach(soup.lattice) + 1;
+        const double units = 4 * placing_bound(soup.lattice, rounded.numbers()) * exact::universe_side;
+        tight_distance_ = units / contact_reach(soup.lattice, rounded.numbers()) + 1;
         std::sort(merged_.begin(), merged_.end());
         chain();
     }
@@ -82,9 +82,15 @@ class PairSearch {
             const std::uint32_t facet = surface_.facets[i].soup_facet;
             next_[i] = first_of_[facet];
             first_of_[facet] = i;
-            for (const PointId corner : surface_.triangles[i])
-                if (rounded_.is_moved(corner)) moved_[facet] = 1, any_moved_ = true;
+            note_moved(i);
         }
+        if (rounded_.moves_vertices())
+            for (std::uint32_t i = 0; i < whole; ++i) note_moved(i);
+    }
+    void note_moved(std::uint32_t triangle) {
+        for (const PointId corner : surface_.triangles[triangle])
+            if (rounded_.is_moved(corner))
+                moved_[surface_.facets[triangle].soup_facet] = 1, any_moved_ = true;
     }
 
     /// Calls `visit(facet)` for the names under which the triangles of a facet are found.
@@ -200,8 +206,10 @@ class PairSearch {
     std::vector<Pair> pairs_;
 };
 
-/// Boxes are larger by this: mending takes points to doubles beside theirs, which are a lattice unit away at most.
-constexpr std::int32_t mending = 1;
+/// Boxes are larger by this many lattice units: mending takes points to numbers beside theirs.
+std::int32_t room_for_mending(const Soup& soup, const RoundedPoints& rounded) {
+    return static_cast<std::int32_t>(std::ceil(2 * rounding_bound(soup.lattice, rounded.numbers())));
+}
 
 /// Groups of more triangles than this get a tree.
 constexpr std::uint32_t large_group = 64;
@@ -210,7 +218,7 @@ constexpr std::uint32_t large_group = 64;
 
 NearFacets::NearFacets(const Surface& surface, const Soup& soup, std::span<const Pair> near,
                        const RoundedPoints& rounded, const Context& context)
-    : moved_(2 * placing_bound(soup.lattice) + 0x1p-24) {
+    : moved_(2 * placing_bound(soup.lattice, rounded.numbers()) + 0x1p-24) {
     PairSearch search(surface, soup, rounded, context);
     pairs_ = search.run(near);
     fill_groups(surface, soup, rounded, search.first_of(), search.next(), context);
@@ -219,6 +227,7 @@ NearFacets::NearFacets(const Surface& surface, const Soup& soup, std::span<const
 void NearFacets::fill_groups(const Surface& surface, const Soup& soup, const RoundedPoints& rounded,
                              std::span<const std::uint32_t> first_of, std::span<const std::uint32_t> next,
                              const Context& context) {
+    const std::int32_t mending = room_for_mending(soup, rounded);
     std::vector<std::uint32_t> facets;
     for (const auto& [first, second] : pairs_) facets.insert(facets.end(), {first, second});
     std::sort(facets.begin(), facets.end());

@@ -15,8 +15,8 @@
 
 // The pairs of triangles of the result that rounding may bring into contact, from what is known of the soup's facets.
 //
-// Problem: rounding moves points by 2^-28 of a lattice unit or so, which can make triangles cross that were apart by as
-// little. To look for such pairs among all triangles of the result would cost more than the set operation: pieces of
+// Problem: rounding moves points by 2^-28 of a lattice unit or so, to floats by a unit or two, which can make triangles
+// cross that were apart by as little. To look for such pairs among all triangles of the result would cost more than the set operation: pieces of
 // slivers lie beside each other by the thousand. Idea: triangles lie in facets of the soup, and facets that are farther
 // apart than `contact_reach` did not pass the filter that looked for contacts. Let δ be what rounding moves a
 // coordinate by, and s the reach. A pair of facets is listed here when
@@ -42,14 +42,16 @@
 
 namespace octavo::boolean {
 
-/// No coordinate is farther from its exact place, in lattice units: half a step from double to double for the nearest
+/// No coordinate is farther from its exact place, in lattice units: half a step from number to number for the nearest
 /// one, and a whole one where rounding_faults.hpp takes one beside it.
-inline double placing_bound(const exact::Lattice& lattice) { return 3 * rounding_bound(lattice); }
+inline double placing_bound(const exact::Lattice& lattice, Numbers numbers) {
+    return 3 * rounding_bound(lattice, numbers);
+}
 
 /// How near to each other facets must be that find_contacts is to tell of, in lattice units. More makes the filter let
 /// more pairs through, less makes more facets tight.
-inline double contact_reach(const exact::Lattice& lattice) {
-    return std::max(0x1p-6, 4 * placing_bound(lattice));
+inline double contact_reach(const exact::Lattice& lattice, Numbers numbers) {
+    return std::max(0x1p-6, 4 * placing_bound(lattice, numbers));
 }
 
 class NearFacets {

@@ -137,11 +137,17 @@ struct Spoke {
     bool leaves;  ///< the triangle runs from the vertex to `other`
 };
 
+/// A facet at an edge where the winding changes of an operand do not cancel.
+struct OpenFacet {
+    std::uint32_t operand, facet;
+    friend auto operator<=>(const OpenFacet&, const OpenFacet&) = default;
+};
+
 /// What is at the edges of a range of points.
 struct FoundEdges {
     std::vector<Junction> junctions;
     std::vector<std::uint32_t> around;
-    std::vector<std::uint32_t> open;  ///< facets at edges where winding changes do not cancel
+    std::vector<OpenFacet> open;
 };
 
 /// Joins across edges that change nothing and records the others.
@@ -180,14 +186,24 @@ class EdgeSearch {
         sum_.clear();
         for (const Spoke& side : sides)
             sum_.add(complex_.transitions.of(complex_.transition(side.triangle)), side.leaves ? 1 : -1);
-        if (!sum_.normalised().empty()) {
-            for (const Spoke& side : sides) found_.open.push_back(complex_.facet(side.triangle));
+        const std::span<const Delta> missing = sum_.normalised();
+        if (!missing.empty()) {
+            note_open(sides, missing);
             return;
         }
         const auto begin = static_cast<std::uint32_t>(found_.around.size());
         for (const Spoke& side : sides) found_.around.push_back(2 * side.triangle + (side.leaves ? 1 : 0));
         found_.junctions.push_back(
             {low, sides[0].other, begin, static_cast<std::uint32_t>(found_.around.size())});
+    }
+
+    /// Of the facets at the edge, those of operands whose changes do not cancel.
+    void note_open(std::span<const Spoke> sides, std::span<const Delta> missing) {
+        for (const Spoke& side : sides)
+            for (const Delta& delta : complex_.transitions.of(complex_.transition(side.triangle)))
+                if (std::any_of(missing.begin(), missing.end(),
+                                [&](const Delta& other) { return other.operand == delta.operand; }))
+                    found_.open.push_back({delta.operand, complex_.facet(side.triangle)});
     }
 
     const Complex& complex_;
@@ -264,17 +280,17 @@ class PatchSearch {
     Error open_error() {
         std::sort(open_.begin(), open_.end());
         open_.erase(std::unique(open_.begin(), open_.end()), open_.end());
-        const mesh::Source first = complex_.soup->source(open_[0]);
         Error error{ErrorCode::not_a_solid, "", {}};
-        std::size_t in_operand = 0;
-        for (const std::uint32_t facet : open_) {
-            const mesh::Source source = complex_.soup->source(facet);
-            if (source.operand != first.operand) continue;
-            ++in_operand;
-            if (error.place.faces.size() < 8) error.place.faces.push_back(source.face);
+        error.place.operand = open_[0].operand;
+        std::size_t facets = 0;
+        for (const auto& [operand, facet] : open_) {
+            if (operand != open_[0].operand) break;
+            ++facets;
+            const mesh::Source source = complex_.soup->source(facet);  // of several facets that coincide, one
+            if (source.operand == operand && error.place.faces.size() < 8)
+                error.place.faces.push_back(source.face);
         }
-        error.sentence = "operand " + std::to_string(first.operand) +
-                         " is not closed or not consistently oriented: at " + std::to_string(in_operand) +
+        error.sentence = "is not closed or not consistently oriented: at " + std::to_string(facets) +
                          " of its facets an edge has no partner that runs the other way";
         return error;
     }
@@ -344,7 +360,7 @@ class PatchSearch {
     const Context& context_;
     ConcurrentSets sets_;
     Patches patches_;
-    std::vector<std::uint32_t> open_;
+    std::vector<OpenFacet> open_;
 };
 
 }  // namespace

@@ -315,7 +315,8 @@ class Mending {
 std::vector<std::uint32_t> find_inverted(const Surface& surface, const Soup& soup,
                                          const RoundedPoints& rounded) {
     std::vector<std::uint32_t> inverted;
-    for (auto i = static_cast<std::uint32_t>(surface.first_piece()); i < surface.triangles.size(); ++i)
+    const std::size_t begin = rounded.moves_vertices() ? 0 : surface.first_piece();
+    for (auto i = static_cast<std::uint32_t>(begin); i < surface.triangles.size(); ++i)
         if (has_moved(surface.triangles[i], rounded) && is_inverted(surface, i, soup, rounded))
             inverted.push_back(i);
     return inverted;

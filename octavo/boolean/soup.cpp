@@ -53,6 +53,16 @@ struct Ranges {
 
 constexpr std::size_t chunk_size = 1 << 15;
 
+Error error_of_operand(std::uint32_t operand, const char* what) {
+    Error error{ErrorCode::bad_input, what, {}};
+    error.place.operand = operand;
+    return error;
+}
+
+std::string name_of(std::uint32_t operand, std::span<const std::string> names) {
+    return operand < names.size() ? names[operand] : "operand " + std::to_string(operand);
+}
+
 /// For each vertex of all operands, whether a facet uses it: others are no part of a solid, and may be anywhere.
 std::vector<std::uint8_t> find_used(std::span<const mesh::Mesh* const> operands, const Ranges& triangles,
                                     const Ranges& vertices, const Context& context) {
@@ -97,10 +107,7 @@ Result<std::vector<Box3>> bounds_of(std::span<const mesh::Mesh* const> operands,
     std::vector<Box3> bounds(operands.size());
     for (const std::vector<Part>& chunk : parts)
         for (const Part& part : chunk) {
-            if (!part.finite)
-                return Error{ErrorCode::bad_input,
-                             "operand " + std::to_string(part.operand) + " has a vertex that is not finite",
-                             {}};
+            if (!part.finite) return error_of_operand(part.operand, "has a vertex that is not finite");
             bounds[part.operand].add(part.bounds);
         }
     return bounds;
@@ -147,9 +154,7 @@ UninitialisedVector<exact::Point> snap_vertices(std::span<const mesh::Mesh* cons
 }
 
 Error missing_corner(std::uint32_t operand, std::size_t face) {
-    Error error{ErrorCode::bad_input,
-                "operand " + std::to_string(operand) + " has a facet with a corner that does not exist",
-                {}};
+    Error error = error_of_operand(operand, "has a facet with a corner that does not exist");
     error.place.faces = {static_cast<std::uint32_t>(face)};
     return error;
 }
@@ -195,40 +200,39 @@ Status add_facets(std::span<const mesh::Mesh* const> operands, const Ranges& tri
 }
 
 /// Operands that are a few units across lose their shape, and vanish below one unit; that is never silent.
-void warn_of_small_operands(const std::vector<Box3>& bounds, Soup& soup) {
+void warn_of_small_operands(const std::vector<Box3>& bounds, std::span<const std::string> names, Soup& soup) {
     constexpr double few_units = 4096;
-    std::string names;
+    std::string listed;
     std::size_t count = 0;
     double least = few_units;
-    for (std::size_t operand = 0; operand < bounds.size(); ++operand) {
+    for (std::uint32_t operand = 0; operand < bounds.size(); ++operand) {
         if (bounds[operand].empty()) continue;
         const Vec3 extents = bounds[operand].extents();
         const double units = std::max({extents.x, extents.y, extents.z}) / soup.lattice.unit();
         if (units >= few_units) continue;
         least = std::min(least, units);
-        if (count++ < 4) names += (names.empty() ? "" : ", ") + std::to_string(operand);
+        if (count++ < 4) listed += (listed.empty() ? "" : ", ") + name_of(operand, names);
     }
     if (count == 0) return;
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", least);
-    soup.warnings.push_back((count == 1 ? "operand " : "operands ") + names +
-                            (count > 4 ? " and others" : "") + (count == 1 ? " is" : " are") +
+    soup.warnings.push_back(listed + (count > 4 ? " and others" : "") + (count == 1 ? " is" : " are") +
                             " small beside the whole: " + text +
                             " lattice units across, so shapes are rounded or vanish; split the job or scale");
 }
 
-std::string warning_of(const Closing& closing) {
+std::string warning_of(const Closing& closing, std::span<const std::string> names) {
     const std::size_t open = closing.operands.size();
-    return (open == 1 ? "1 operand is" : std::to_string(open) + " operands are") +
-           " open, the first is operand " + std::to_string(closing.operands[0]) + ": " +
-           std::to_string(closing.open_sides) + " open sides were closed by " +
-           std::to_string(closing.added_facets) + (closing.added_facets == 1 ? " facet" : " facets");
+    return (open == 1 ? "1 operand is" : std::to_string(open) + " operands are") + " open, the first is " +
+           name_of(closing.operands[0], names) + ": " + std::to_string(closing.open_sides) +
+           " open sides were closed by " + std::to_string(closing.added_facets) +
+           (closing.added_facets == 1 ? " facet" : " facets");
 }
 
 }  // namespace
 
 Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands open,
-                       const Context& context) {
+                       std::span<const std::string> names, const Context& context) {
     Soup soup;
     Ranges triangles{{0}}, vertices{{0}};
     for (const mesh::Mesh* operand : operands) {
@@ -258,11 +262,11 @@ Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands
     if (soup.flat_facets > 0)
         soup.warnings.push_back(std::to_string(soup.flat_facets) +
                                 " facets have no area on the lattice and were dropped");
-    warn_of_small_operands(*bounds, soup);
+    warn_of_small_operands(*bounds, names, soup);
     if (open == OpenOperands::winding) {
         const Closing closing = close_operands(soup);
         soup.closing_facets = closing.added_facets;
-        if (!closing.operands.empty()) soup.warnings.push_back(warning_of(closing));
+        if (!closing.operands.empty()) soup.warnings.push_back(warning_of(closing, names));
     }
     merge_coincident(soup, context);
     if (context.cancelled()) return Context::cancelled_error();

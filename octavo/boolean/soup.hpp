@@ -52,8 +52,9 @@ struct Soup {
 
 /// Errors: bad_input when a vertex is not finite or a corner out of range; limit when there are too many facets
 /// or the operands' sizes and positions have no common lattice. Warns of operands that the lattice is too coarse for.
+/// `names` are what warnings call operands; those beyond are called "operand 3".
 Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands open,
-                       const Context& context);
+                       std::span<const std::string> names, const Context& context);
 
 /// Drops the facets that are marked.
 void drop_facets(const std::vector<char>& dropped, Soup& soup);

@@ -403,12 +403,41 @@ TEST(Evaluate, RefusesOpenOperandsAndNamesTheFacets) {
     const Result<Evaluated> result = unite(std::vector<mesh::Mesh>{cube(0, 0, 0), open});
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::not_a_solid);
-    EXPECT_NE(result.error().sentence.find("operand 1"), std::string::npos) << result.error().sentence;
+    EXPECT_EQ(result.error().place.operand, 1U);
     EXPECT_FALSE(result.error().place.faces.empty());
 
     mesh::Mesh turned = cube(0, 0, 0);
     std::swap(turned.triangles[3][0], turned.triangles[3][1]);
     EXPECT_EQ(unite(std::vector<mesh::Mesh>{turned}).error().code, ErrorCode::not_a_solid);
+}
+
+TEST(Evaluate, TellsWhichOperandIsAtFault) {
+    mesh::Mesh open = cube(3, 0, 0), broken = cube(6, 0, 0);
+    open.triangles.pop_back();
+    broken.triangles[2][1] = 99;
+    const auto error_of = [](const mesh::Mesh& second) {
+        return unite(std::vector<mesh::Mesh>{cube(0, 0, 0), second}).error();
+    };
+    EXPECT_EQ(error_of(open).place.operand, 1U);
+    EXPECT_TRUE(error_of(open).sentence.starts_with("is not closed")) << error_of(open).sentence;
+    EXPECT_EQ(error_of(broken).place.operand, 1U);
+    broken.vertices[0].x = std::nan("");
+    EXPECT_EQ(error_of(broken).place.operand, 1U);
+    // At its open edges are facets of the other operand too.
+    mesh::Mesh facet = cube(0, 0, 0);
+    facet.triangles.resize(1);
+    EXPECT_EQ(error_of(facet).place.operand, 1U);
+    facet.vertices[facet.triangles[0][2]] = {5, 5, 5};
+    EXPECT_EQ(error_of(facet).place.operand, 1U);
+    EXPECT_EQ(error_of(facet).place.faces, std::vector<std::uint32_t>{0});
+}
+
+TEST(Evaluate, CallsOperandsInWarningsAsItsCallerDoes) {
+    mesh::Mesh open = cube(3, 0, 0);
+    open.triangles.pop_back();
+    const Options closing{.open = OpenOperands::winding, .names = {"bore.stl"}};
+    EXPECT_NE(unite({&open, 1}, closing)->report.warnings.at(0).find("the first is bore.stl: "),
+              std::string::npos);
 }
 
 /// The cube with some facets missing.

@@ -30,10 +30,14 @@ cpp_rational place(const P& point, int axis, std::int64_t origin) {
     return cpp_rational(number(point.numerator(axis)), number(point.weight())) + origin;
 }
 
-/// The distance of the two doubles about a number, but no less than the finest that points are rounded to.
-cpp_rational spacing(const cpp_rational& at) {
+/// The distance of the two numbers about a number, but no less than the finest that points are rounded to.
+cpp_rational spacing(const cpp_rational& at, Numbers numbers) {
     const double near = std::fabs(static_cast<double>(at));
-    return cpp_rational(std::max(std::nextafter(near, 2 * near + 1) - near, 0x1p-36));
+    const auto from = static_cast<float>(near);
+    const double distance = numbers == Numbers::doubles
+                                ? std::nextafter(near, 2 * near + 1) - near
+                                : double{std::nextafter(from, 2 * from + 1)} - double{from};
+    return cpp_rational(std::max(distance, numbers == Numbers::floats ? 0x1p-24 : 0x1p-36));
 }
 
 Point random_point(std::mt19937& random, std::int32_t side) {
@@ -41,7 +45,7 @@ Point random_point(std::mt19937& random, std::int32_t side) {
     return {at(random), at(random), at(random)};
 }
 
-TEST(RoundedPoints, AreTheNearestDoubles) {
+void expect_nearest(Numbers numbers) {
     std::mt19937 random(7);
     std::size_t moved = 0;
     for (const std::int64_t origin :
@@ -49,6 +53,7 @@ TEST(RoundedPoints, AreTheNearestDoubles) {
           -(std::int64_t{1} << 40), std::int64_t{1} << 52}) {
         Soup soup;
         soup.lattice = *exact::Lattice::from_parts(-4, {origin, origin, origin});
+        if (!hold_shapes(soup.lattice, numbers)) continue;
         for (int run = 0; run < 3000; ++run) {
             const std::int32_t side = run % 2 ? 7 : exact::universe_side - 1;
             Point p[9];
@@ -68,14 +73,15 @@ TEST(RoundedPoints, AreTheNearestDoubles) {
                         return;
                 PointTable points(soup);
                 const PointId id = points.add(point);
-                const RoundedPoints rounded(soup, points);
+                const RoundedPoints rounded(soup, points, numbers);
                 const Vec3 world = rounded.world(id);
                 bool any_moved = false;
                 for (int axis = 0; axis < 3; ++axis) {
                     const cpp_rational exact_place = place(point, axis, origin);
                     const cpp_rational found = cpp_rational(world[axis]) * 16;
                     const cpp_rational off = abs(cpp_rational(found - exact_place));
-                    EXPECT_LE(off, spacing(exact_place) * cpp_rational(1001, 2000)) << "origin " << origin;
+                    EXPECT_LE(off, spacing(exact_place, numbers) * cpp_rational(1001, 2000))
+                        << "origin " << origin;
                     EXPECT_LE(off, cpp_rational(rounded.largest_rounding()) * 16);
                     EXPECT_EQ(found, cpp_rational(rounded[id][static_cast<std::size_t>(axis)]) /
                                              (std::int64_t{1} << RoundedPoints::fraction_bits) +
@@ -92,6 +98,40 @@ TEST(RoundedPoints, AreTheNearestDoubles) {
         }
     }
     EXPECT_GT(moved, 1000U);
+}
+
+TEST(RoundedPoints, AreTheNearestDoubles) { expect_nearest(Numbers::doubles); }
+TEST(RoundedPoints, AreTheNearestFloats) { expect_nearest(Numbers::floats); }
+
+TEST(RoundedPoints, MoveVerticesThatAreNoFloats) {
+    std::mt19937 random(11);
+    for (const std::int64_t origin : {std::int64_t{0}, -(std::int64_t{1} << 25), std::int64_t{1} << 33}) {
+        Soup soup;
+        soup.lattice = *exact::Lattice::from_parts(-4, {origin, origin, origin});
+        for (int i = 0; i < 1000; ++i) soup.points.push_back(random_point(random, exact::universe_side - 1));
+        const PointTable points(soup);
+        const RoundedPoints rounded(soup, points, Numbers::floats);
+        EXPECT_TRUE(rounded.moves_vertices());
+        EXPECT_FALSE(RoundedPoints(soup, points).moves_vertices());
+        for (PointId id = 0; id < soup.points.size(); ++id) {
+            const Vec3 before = soup.lattice.to_world(soup.points[id]), after = rounded.world(id);
+            EXPECT_EQ(rounded.is_moved(id), before != after);
+            for (int axis = 0; axis < 3; ++axis) {
+                const double nearest = static_cast<float>(before[axis]);
+                EXPECT_EQ(after[axis], static_cast<float>(after[axis]));
+                EXPECT_EQ(std::fabs(after[axis] - before[axis]), std::fabs(nearest - before[axis]));
+                EXPECT_LE(std::fabs(after[axis] - before[axis]), rounded.largest_rounding());
+            }
+        }
+    }
+    // What floats were read from stays.
+    Soup soup;
+    EXPECT_TRUE(
+        hold_shapes(*exact::Lattice::from_parts(0, {0, -(std::int64_t{1} << 35), 0}), Numbers::floats));
+    EXPECT_FALSE(hold_shapes(*exact::Lattice::from_parts(0, {0, std::int64_t{1} << 36, 0}), Numbers::floats));
+    soup.lattice = *exact::Lattice::from_parts(0, {0, 0, 0});
+    soup.points = {{0, 1, (1 << 24) - 1}, {1 << 24, (1 << 25) + 4, (1 << 26) - 4}};
+    EXPECT_FALSE(RoundedPoints(soup, PointTable(soup), Numbers::floats).moves_vertices());
 }
 
 TEST(RoundedPoints, HaveExactPredicates) {

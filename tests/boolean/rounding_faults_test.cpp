@@ -159,18 +159,35 @@ std::size_t pairs_that_meet(const mesh::Mesh& mesh, Vec3 origin) {
     return count;
 }
 
-TEST(MendRounding, TellsOfAllFaultsWhereDoublesAreCoarse) {
-    // So far from the world's origin, doubles are whole numbers and bodies a few of these long.
-    const Vec3 origin{0x1p52, 0x1p52, 0x1p52};
+/// A block so large that even floats are fine beside it.
+mesh::Mesh far_block(Vec3 origin) {
+    mesh::Mesh block = tests::box({128, 128, 128}, {512, 512, 1 << 15}).mesh;
+    for (Vec3& vertex : block.vertices) vertex = vertex + origin;
+    return block;
+}
+
+void append(mesh::Mesh& mesh, const mesh::Mesh& part) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const mesh::Triangle& t : part.triangles)
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+/// So far from the world's origin that numbers are whole and bodies a few of these long; `scale` is the unit of the
+/// bodies' coordinates.
+void expect_all_faults_told(Numbers numbers, double far, double scale, int runs) {
+    const Vec3 origin{far, far, far};
+    const std::string rounding = numbers == Numbers::floats ? "rounding to floats" : "rounding to doubles";
     std::size_t mended = 0, left = 0, faulty = 0;
-    for (int run = 0; run < 650 * tests::effort() && !testing::Test::HasFailure(); ++run) {
+    for (int run = 0; run < runs * tests::effort() && !testing::Test::HasFailure(); ++run) {
         std::mt19937 random(static_cast<unsigned>(run));
         std::vector<mesh::Mesh> bodies;
         for (int body = 0; body < 2 + run % 3; ++body) {
             bodies.push_back(tests::random_convex(random, 4 + run % 5).mesh);
-            for (Vec3& vertex : bodies.back().vertices) vertex = (1.0 + run % 7) * vertex + origin;
+            for (Vec3& vertex : bodies.back().vertices) vertex = scale * (1 + run % 7) * vertex + origin;
         }
-        Options options;
+        append(bodies[0], far_block(origin));
+        Options options{.numbers = numbers};
         if (run % 2) options.simplify = Simplify::none;
         const Result<Evaluated> result = run % 4 < 2    ? unite(bodies, options)
                                          : run % 4 == 2 ? subtract(bodies, options)
@@ -185,9 +202,9 @@ TEST(MendRounding, TellsOfAllFaultsWhereDoublesAreCoarse) {
         if (meeting > 0) {
             EXPECT_GT(report.inverted_facets + report.crossing_facets, 0U) << "run " << run;
         }
-        const bool told = std::any_of(
-            report.warnings.begin(), report.warnings.end(),
-            [](const std::string& warning) { return warning.rfind("rounding to doubles", 0) == 0; });
+        const bool told =
+            std::any_of(report.warnings.begin(), report.warnings.end(),
+                        [&](const std::string& warning) { return warning.starts_with(rounding); });
         EXPECT_EQ(told, report.inverted_facets + report.crossing_facets > 0);
         mended += report.mended_points;
         left += report.inverted_facets + report.crossing_facets;
@@ -196,8 +213,17 @@ TEST(MendRounding, TellsOfAllFaultsWhereDoublesAreCoarse) {
     EXPECT_GT(mended, 0U);
     EXPECT_GT(left, 0U);
     EXPECT_GT(faulty, 0U);
-    RecordProperty("mended", static_cast<int>(mended));
-    RecordProperty("left", static_cast<int>(left));
+    testing::Test::RecordProperty("mended", static_cast<int>(mended));
+    testing::Test::RecordProperty("left", static_cast<int>(left));
+}
+
+TEST(MendRounding, TellsOfAllFaultsWhereDoublesAreCoarse) {
+    expect_all_faults_told(Numbers::doubles, 0x1p52, 1, 500);
+}
+
+TEST(MendRounding, TellsOfAllFaultsWhereFloatsAreCoarse) {
+    expect_all_faults_told(Numbers::floats, 0x1p23, 1, 150);
+    expect_all_faults_told(Numbers::floats, 0x1p23, 0.75, 150);  // vertices of operands move too
 }
 
 }  // namespace
