@@ -87,6 +87,25 @@ std::uint64_t drop_unused_vertices(RepairSoup& soup) {
     return dropped;
 }
 
+/// What was done, by kind.
+using DoneByKind = std::array<RepairDone, wordings.size()>;
+
+/// Drops what repeats and flips what has no area, until neither is left to do; false when there was nothing.
+bool simplify(RepairSoup& soup, DoneByKind& done) {
+    const auto note = [&](RepairKind kind, const RepairDone& more) {
+        done[static_cast<std::size_t>(kind)].add(more);
+        return more.count > 0;
+    };
+    for (bool any = false;; any = true) {
+        bool now = note(RepairKind::dropped_duplicate_facets, drop_duplicate_facets(soup));
+        const DroppedWalls walls = drop_walls(soup);
+        now |= note(RepairKind::dropped_inner_walls, walls.inner);
+        now |= note(RepairKind::dropped_flaps, walls.flaps);
+        now |= note(RepairKind::flipped_edges, flip_needles(soup));
+        if (!now) return any;
+    }
+}
+
 }  // namespace
 
 std::string_view name_of(RepairKind kind) { return wording_of(kind).name; }
@@ -101,8 +120,6 @@ std::string RepairReport::describe() const {
 Result<Repaired> repair(const Mesh& mesh, const Context& context) {
     if (const Status numbered = check_sides_can_be_numbered(mesh.triangles.size()); !numbered)
         return numbered.error();
-    Repaired result;
-    RepairReport& report = result.report;
     RepairSoup soup;
     {
         Mesh welded = weld(mesh);
@@ -116,37 +133,38 @@ Result<Repaired> repair(const Mesh& mesh, const Context& context) {
         context.report("repair", done);
         return !context.cancelled();
     };
+    DoneByKind done;
+    const auto of = [&](RepairKind kind) -> RepairDone& { return done[static_cast<std::size_t>(kind)]; };
+    of(RepairKind::merged_vertices).count = mesh.vertices.size() - soup.vertices.size();
     if (!goes_on(0.1)) return Context::cancelled_error();
-    RepairDone merged{mesh.vertices.size() - soup.vertices.size(), {}};
     const Status snapped = snap_used(soup);
     if (!snapped) return snapped.error();
-
-    RepairReport later;
-    note(later, RepairKind::dropped_collapsed_facets, drop_collapsed_facets(soup));
-    note(later, RepairKind::dropped_duplicate_facets, drop_duplicate_facets(soup));
+    of(RepairKind::dropped_collapsed_facets) = drop_collapsed_facets(soup);
     if (!goes_on(0.2)) return Context::cancelled_error();
-    RepairDone flaps;
-    note(later, RepairKind::dropped_inner_walls, drop_walls(soup, flaps));
-    note(later, RepairKind::dropped_flaps, std::move(flaps));
-    if (!goes_on(0.3)) return Context::cancelled_error();
-    note(later, RepairKind::flipped_edges, flip_needles(soup));
-    if (!goes_on(0.5)) return Context::cancelled_error();
-    std::vector<bool> mixed;
-    note(later, RepairKind::turned_facets, orient_neighbours(soup, mixed));
-    if (!goes_on(0.6)) return Context::cancelled_error();
-    RepairDone doubled;
-    RepairDone separated = separate_edges(soup, doubled);
-    if (!goes_on(0.8)) return Context::cancelled_error();
-    RepairDone turned = turn_shells(soup, mixed);
+
+    // What is turned may face what it faced away from, and cancel it; what is dropped may let facets be turned; and where
+    // shells cross themselves one that has been turned may look otherwise than before. Mostly there is one round, and
+    // two where something was turned.
+    constexpr int most_turns_in_a_row = 16;
+    for (int turns_in_a_row = 0;;) {
+        if (simplify(soup, done)) turns_in_a_row = 0;
+        if (!goes_on(0.5)) return Context::cancelled_error();
+        std::vector<bool> mixed;
+        const RepairDone facets = orient_neighbours(soup, mixed);
+        if (!goes_on(0.6)) return Context::cancelled_error();
+        const RepairDone shells = turn_shells(soup, mixed);
+        if (!goes_on(0.7)) return Context::cancelled_error();
+        of(RepairKind::turned_facets).add(facets);
+        of(RepairKind::turned_shells).add(shells);
+        if (facets.count + shells.count == 0 || ++turns_in_a_row == most_turns_in_a_row) break;
+    }
+    of(RepairKind::separated_edges) = separate_edges(soup, of(RepairKind::separated_vertices));
     if (!goes_on(1)) return Context::cancelled_error();
+    of(RepairKind::dropped_vertices).count = drop_unused_vertices(soup);
 
-    note(report, RepairKind::merged_vertices, std::move(merged));
-    report.steps.insert(report.steps.end(), later.steps.begin(), later.steps.end());
-    note(report, RepairKind::separated_edges, std::move(separated));
-    note(report, RepairKind::separated_vertices, std::move(doubled));
-    note(report, RepairKind::turned_shells, std::move(turned));
-    note(report, RepairKind::dropped_vertices, {drop_unused_vertices(soup), {}});
-
+    Repaired result;
+    for (std::size_t kind = 0; kind < done.size(); ++kind)
+        note(result.report, static_cast<RepairKind>(kind), std::move(done[kind]));
     for (const FaceIndex face : soup.origin)
         result.mesh.sources.push_back(mesh.sources.empty() ? Source{0, face} : mesh.sources[face]);
     result.mesh.vertices = std::move(soup.vertices);

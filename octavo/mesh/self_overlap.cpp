@@ -25,9 +25,6 @@ struct DistinctFacets {
     std::vector<FaceIndex> doubled;  ///< two on the same corners, facing the same way, that nothing cancels
 };
 
-/// Of the two directions that three corners can be run through, whether this is that of ascending numbers.
-bool is_ascending(const Triangle& t) { return (t[0] < t[1]) + (t[1] < t[2]) + (t[2] < t[0]) == 2; }
-
 /// Of the facets on the same corners only what is left when those that face each other cancel: one, as a rule, or none.
 DistinctFacets cancel_repeated(const std::vector<Triangle>& triangles, const EdgeTable& edges) {
     DistinctFacets distinct;
@@ -70,21 +67,22 @@ class OverlapSearch {
         return {};
     }
 
-    /// A facet of the first shell that is neither a body in free space nor a cavity of one.
+    /// A facet of the first shell beside which space winds otherwise than once or not at all.
     std::vector<FaceIndex> among(const Shells& shells, const SelfIntersections& found) const {
         std::vector<bool> has_contact(shells.shells.size(), false);
         for (const auto* pairs : {&found.touching, &found.overlapping})
             for (const FacePair& pair : *pairs) {
                 const std::uint32_t a = shells.of_face[pair.first], b = shells.of_face[pair.second];
-                if (a != b && a != no_index) has_contact[a] = true;
-                if (a != b && b != no_index) has_contact[b] = true;
+                if (a != b || (a != no_index && shells.shells[a].crowded))
+                    for (const std::uint32_t shell : {a, b})
+                        if (shell != no_index) has_contact[shell] = true;
             }
         for (FaceIndex face = 0; face < triangles_.size(); ++face) {
             const std::uint32_t number = shells.of_face[face];
             if (number == no_index || has_contact[number]) continue;
             const Shell& shell = shells.shells[number];
             if (!shell.closed || shell.flat()) continue;
-            if (shell.winding_around() != (shell.volume6 > 0 ? 0 : 1)) return {face};
+            if (!shell.separates()) return {face};
         }
         return {};
     }

@@ -15,8 +15,8 @@
 // of the kind happens each shell bounds a space by itself, and has the right winding number inside when it is a body that no other
 // shell encloses, or a cavity in one. Facets that touch, or face each other in one plane, are contact and allowed; facets on the same
 // corners count with their directions first.
-// Not seen: shells within each other that have contact as well, bodies that hang together at edges only, as one shell, of
-// which one is inside out, and overlaps in a plane where others of its facets cancel some.
+// Not seen: shells within each other that have contact as well, or hang together at edges and have more contact, and overlaps in a plane where others of its facets cancel
+// some.
 // Cost: that of find_self_intersections; shells add a tenth.
 
 namespace octavo::mesh {

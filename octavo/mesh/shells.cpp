@@ -1,191 +1,238 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
-#include <map>
+#include <array>
 
 #include <octavo/exact/orient.hpp>
-#include <octavo/exact/plane.hpp>
 #include <octavo/mesh/measure.hpp>
+#include <octavo/mesh/repeats.hpp>
 #include <octavo/mesh/shells.hpp>
+#include <octavo/mesh/windings_beside.hpp>
 
 namespace octavo::mesh {
 namespace {
 
+using exact::int128;
 using exact::Point;
-using exact::Sign;
-using exact::sign_of;
 
-/// The place that asks for a shell.
-struct Query {
-    Point point;
-    std::uint32_t shell = 0;
+/// Twenty-six bits an axis.
+struct Box {
+    std::array<std::int32_t, 3> low{exact::universe_side, exact::universe_side, exact::universe_side};
+    std::array<std::int32_t, 3> high{};
+    void add(Point p) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            low[i] = std::min(low[i], p[axis]);
+            high[i] = std::max(high[i], p[axis]);
+        }
+    }
+    int128 volume() const {
+        int128 product = 1;
+        for (std::size_t i = 0; i < 3; ++i) product *= std::max(high[i] - low[i], 0);
+        return product;
+    }
 };
 
-/// Queries by their y and z, for facets to find those that they may cover.
-class QueryGrid {
+class ShellSearch {
   public:
-    explicit QueryGrid(std::span<const Query> queries) : queries_(queries) {
-        const auto side = static_cast<std::int32_t>(std::sqrt(static_cast<double>(queries.size())));
-        cells_ = std::clamp(side, 1, 1024);
-        width_ = exact::universe_side / cells_ + 1;
-        begin_.assign(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_) + 2, 0);
-        for (const Query& query : queries) ++begin_[cell(query.point.y / width_, query.point.z / width_) + 2];
-        for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-        members_.resize(queries.size());
-        for (std::uint32_t i = 0; i < queries.size(); ++i)
-            members_[begin_[cell(queries[i].point.y / width_, queries[i].point.z / width_) + 1]++] = i;
-        begin_.pop_back();
-    }
+    ShellSearch(std::span<const Point> points, std::span<const Triangle> triangles, const EdgeTable& edges)
+        : points_(points), triangles_(triangles), edges_(edges) {}
 
-    /// Calls visit(query) for those in the box, and maybe others.
-    template <class Visit>
-    void for_each_in(std::int32_t y0, std::int32_t y1, std::int32_t z0, std::int32_t z1,
-                     const Visit& visit) const {
-        for (std::int32_t row = z0 / width_; row <= z1 / width_; ++row) {
-            const std::size_t first = begin_[cell(y0 / width_, row)],
-                              last = begin_[cell(y1 / width_, row) + 1];
-            for (std::size_t i = first; i < last; ++i) visit(queries_[members_[i]]);
-        }
+    Shells run() {
+        gather();
+        wind_by_volume();
+        if (std::any_of(found_.shells.begin(), found_.shells.end(), is_patched)) wind_by_patches();
+        order_by_size();
+        if (found_.by_size.size() > 1) find_enclosures();
+        return std::move(found_);
     }
 
   private:
-    std::size_t cell(std::int32_t column, std::int32_t row) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(cells_) +
-               static_cast<std::size_t>(column);
+    void gather();
+    static bool is_patched(const Shell& shell) { return shell.closed && shell.crowded; }
+    void wind_by_volume();
+    void wind_by_patches();
+    std::vector<bool> tell_repeated_facets_apart();
+    void order_by_size();
+    std::vector<FaceIndex> first_facets() const;
+    void find_enclosures();
+
+    std::array<Point, 3> corners(FaceIndex face) const {
+        const Triangle& t = triangles_[face];
+        return {points_[t[0]], points_[t[1]], points_[t[2]]};
+    }
+    bool is_flat(FaceIndex face) const {
+        const auto [a, b, c] = corners(face);
+        return exact::collinear(a, b, c);
+    }
+    /// Of the two facets, the one that comes first by the positions of its corners; no_index is none.
+    FaceIndex first_of(FaceIndex a, FaceIndex b) const {
+        if (a == no_index || b == no_index) return std::min(a, b);
+        std::array<Point, 3> p = corners(a), q = corners(b);
+        const Point first = std::min({p[0], p[1], p[2]}), second = std::min({q[0], q[1], q[2]});
+        if (first != second) return first < second ? a : b;
+        std::sort(p.begin(), p.end());
+        std::sort(q.begin(), q.end());
+        return q < p ? b : a;
+    }
+    bool is_closed(FaceIndex face) const {
+        return found_.of_face[face] != no_index && found_.shells[found_.of_face[face]].closed;
     }
 
-    std::span<const Query> queries_;
-    std::int32_t cells_ = 1, width_ = 1;
-    std::vector<std::uint32_t> begin_, members_;
+    std::span<const Point> points_;
+    std::span<const Triangle> triangles_;
+    const EdgeTable& edges_;
+    Shells found_;
+    std::vector<Box> boxes_;  ///< of shells
 };
 
-/// How the ray from q to the left crosses a facet.
-struct Crossing {
-    int direction = 0;      ///< +1 outwards, −1 inwards, 0 not at all
-    bool at_start = false;  ///< q may lie on the facet, so that the answer is that of the symbolic step
-};
-
-Crossing crossing_to_the_left(const std::array<Point, 3>& facet, Point q) {
-    const exact::Plane plane = exact::Plane::through(facet[0], facet[1], facet[2]);
-    const Sign side = sign_of(plane.value_at(q)), outward_x = sign_of(plane.a());
-    // The caller knows that q is in the facet's box but for being right of it.
-    if (side == Sign::zero) return {0, q.x <= std::max({facet[0].x, facet[1].x, facet[2].x})};
-    if (side * outward_x != Sign::positive) return {};
-    // In the plane of y and z: is the moved q in the triangle? Half-open in z for the step in z, and a point on
-    // an edge is right of it for the step in y.
-    int edges_beyond = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Point a = facet[i], b = facet[(i + 1) % 3];
-        if ((a.z > q.z) == (b.z > q.z)) continue;
-        edges_beyond += (a.z > q.z ? orient2d(0, b, a, q) : orient2d(0, a, b, q)) == Sign::positive;
-    }
-    if (edges_beyond != 1) return {};
-    return {outward_x == Sign::negative ? 1 : -1, false};
-}
-
-std::vector<bool> balanced_edges(const EdgeTable& edges, std::span<const Triangle> triangles) {
-    std::vector<bool> balanced(edges.size());
-    for (EdgeIndex edge = 0; edge < edges.size(); ++edge) {
+void ShellSearch::gather() {
+    const Components components = components_by_edge(edges_, triangles_.size());
+    std::vector<bool> balanced(edges_.size()), crowded(edges_.size());
+    for (EdgeIndex edge = 0; edge < edges_.size(); ++edge) {
         int balance = 0;
-        for (const SideIndex side : edges.sides_of(edge)) balance += runs_upward(triangles, side) ? 1 : -1;
+        for (const SideIndex side : edges_.sides_of(edge)) balance += runs_upward(triangles_, side) ? 1 : -1;
         balanced[edge] = balance == 0;
+        crowded[edge] = edges_.sides_of(edge).size() > 2;
     }
-    return balanced;
-}
-
-Shells gather_shells(std::span<const Point> points, std::span<const Triangle> triangles,
-                     const EdgeTable& edges) {
-    Shells result;
-    const Components components = components_by_edge(edges, triangles.size());
-    const std::vector<bool> balanced = balanced_edges(edges, triangles);
     std::vector<std::uint32_t> number(components.count, no_index);
-    result.of_face.assign(triangles.size(), no_index);
-    for (FaceIndex face = 0; face < triangles.size(); ++face) {
-        if (edges.edge_of_side[std::size_t{3} * face] == no_index) continue;
+    found_.of_face.assign(triangles_.size(), no_index);
+    for (FaceIndex face = 0; face < triangles_.size(); ++face) {
+        if (edges_.edge_of_side[std::size_t{3} * face] == no_index) continue;
         std::uint32_t& shell = number[components.of_face[face]];
         if (shell == no_index) {
-            shell = static_cast<std::uint32_t>(result.shells.size());
-            result.shells.emplace_back().closed = true;
+            shell = static_cast<std::uint32_t>(found_.shells.size());
+            found_.shells.emplace_back().closed = true;
+            boxes_.emplace_back();
         }
-        result.of_face[face] = shell;
-        Shell& s = result.shells[shell];
+        found_.of_face[face] = shell;
+        Shell& s = found_.shells[shell];
         ++s.faces;
-        s.volume6 += exact_volume6(points, triangles.subspan(face, 1));
-        for (std::size_t k = 0; k < 3; ++k)
-            s.closed = s.closed && balanced[edges.edge_of_side[std::size_t{3} * face + k]];
-    }
-    return result;
-}
-
-/// The vertices of a shell that are tried one after the other: the ends along an axis, which lie far apart, so that
-/// hardly all of them are on other shells.
-constexpr std::uint32_t most_attempts = 6;
-
-bool further_out(Point p, Point q, std::uint32_t attempt) {
-    const int axis = static_cast<int>(attempt / 2);
-    const bool first = attempt % 2 == 0;
-    if (p[axis] != q[axis]) return first ? p[axis] < q[axis] : p[axis] > q[axis];
-    return first ? p < q : q < p;
-}
-
-/// For each shell that asks, the vertex of this attempt.
-std::vector<Query> choose_queries(std::span<const Point> points, std::span<const Triangle> triangles,
-                                  const Shells& shells, const std::vector<bool>& asks,
-                                  std::uint32_t attempt) {
-    std::vector<Query> queries;
-    std::vector<std::uint32_t> number(shells.shells.size(), no_index);
-    for (FaceIndex face = 0; face < triangles.size(); ++face) {
-        const std::uint32_t shell = shells.of_face[face];
-        if (shell == no_index || !asks[shell]) continue;
-        if (number[shell] == no_index) {
-            number[shell] = static_cast<std::uint32_t>(queries.size());
-            queries.push_back({points[triangles[face][0]], shell});
+        s.volume6 += exact_volume6(points_, triangles_.subspan(face, 1));
+        for (const Point corner : corners(face)) boxes_[shell].add(corner);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const EdgeIndex edge = edges_.edge_of_side[std::size_t{3} * face + k];
+            s.closed = s.closed && balanced[edge];
+            s.crowded = s.crowded || crowded[edge];
         }
-        Point& best = queries[number[shell]].point;
-        for (const VertexIndex vertex : triangles[face])
-            if (further_out(points[vertex], best, attempt)) best = points[vertex];
     }
-    return queries;
+}
+
+void ShellSearch::wind_by_volume() {
+    for (Shell& shell : found_.shells) {
+        if (!shell.closed) continue;
+        shell.lowest = shell.volume6 < 0 ? -1 : 0;
+        shell.highest = shell.volume6 > 0 ? 1 : 0;
+    }
+    found_.in_front.assign(triangles_.size(), 0);
+    for (FaceIndex face = 0; face < triangles_.size(); ++face)
+        if (is_closed(face)) found_.in_front[face] = found_.shells[found_.of_face[face]].lowest;
+}
+
+void ShellSearch::wind_by_patches() {
+    const Components patches = components_by_plain_edge(edges_, triangles_.size());
+    std::vector<std::uint32_t> asking(triangles_.size(), no_index);  // the shell, if it is crowded
+    std::vector<FaceIndex> sample(patches.count, no_index);
+    for (FaceIndex face = 0; face < triangles_.size(); ++face) {
+        const std::uint32_t shell = found_.of_face[face];
+        if (shell == no_index || !is_patched(found_.shells[shell])) continue;
+        asking[face] = shell;
+        found_.in_front[face] = 0;
+        FaceIndex& first = sample[patches.of_face[face]];
+        if (!is_flat(face)) first = first_of(first, face);
+    }
+    std::vector<PlaceBeside> places;
+    for (const FaceIndex face : sample)
+        if (face != no_index) places.push_back({face, false});
+    std::vector<std::int32_t> of_patch(patches.count, 0);
+    for (const PlaceWinding& found : windings_beside(points_, triangles_, asking, places, Winders::own))
+        of_patch[patches.of_face[places[found.place].face]] = found.winding;
+    for (FaceIndex face = 0; face < triangles_.size(); ++face)
+        if (asking[face] != no_index) found_.in_front[face] = of_patch[patches.of_face[face]];
+    const std::vector<bool> cancels = tell_repeated_facets_apart();
+
+    for (Shell& shell : found_.shells)
+        if (is_patched(shell)) shell.lowest = shell.highest = 0;
+    for (FaceIndex face = 0; face < triangles_.size(); ++face) {
+        if (asking[face] == no_index || is_flat(face)) continue;
+        Shell& shell = found_.shells[asking[face]];
+        const std::int32_t front = found_.in_front[face], behind = cancels[face] ? front : front + 1;
+        shell.lowest = std::min(shell.lowest, front);
+        shell.highest = std::max(shell.highest, behind);
+    }
+}
+
+/// All facets on the same corners have been told what is in front of all of them. Lays them one behind the other, those
+/// that face each other last, which cancel and are marked.
+std::vector<bool> ShellSearch::tell_repeated_facets_apart() {
+    std::vector<bool> cancels(triangles_.size());
+    for (const std::vector<FaceIndex>& group : groups_of_repeated_facets(triangles_, edges_)) {
+        if (!is_patched(found_.shells[found_.of_face[group[0]]])) continue;
+        std::vector<FaceIndex> more, fewer;
+        for (const FaceIndex face : group) (is_ascending(triangles_[face]) ? more : fewer).push_back(face);
+        if (more.size() < fewer.size()) std::swap(more, fewer);
+        const std::size_t left = more.size() - fewer.size();
+        const std::int32_t front = found_.in_front[more[0]], behind = front + static_cast<std::int32_t>(left);
+        for (std::size_t i = 0; i < more.size(); ++i) {
+            found_.in_front[more[i]] = i < left ? front + static_cast<std::int32_t>(i) : behind;
+            cancels[more[i]] = i >= left;
+        }
+        for (const FaceIndex face : fewer) {
+            found_.in_front[face] = behind;
+            cancels[face] = true;
+        }
+    }
+    return cancels;
+}
+
+void ShellSearch::order_by_size() {
+    for (std::uint32_t shell = 0; shell < found_.shells.size(); ++shell)
+        if (found_.shells[shell].closed) found_.by_size.push_back(shell);
+    const auto magnitude = [&](std::uint32_t shell) {
+        const int128 volume = found_.shells[shell].volume6;
+        return volume < 0 ? -volume : volume;
+    };
+    std::stable_sort(found_.by_size.begin(), found_.by_size.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const int128 p = boxes_[a].volume(), q = boxes_[b].volume();
+        return p != q ? p > q : magnitude(a) > magnitude(b);
+    });
+}
+
+/// Of each closed shell the facet that is asked; no_index where none has area.
+std::vector<FaceIndex> ShellSearch::first_facets() const {
+    std::vector<FaceIndex> first(found_.shells.size(), no_index);
+    for (FaceIndex face = 0; face < triangles_.size(); ++face) {
+        if (!is_closed(face) || is_flat(face)) continue;
+        FaceIndex& of_shell = first[found_.of_face[face]];
+        of_shell = first_of(of_shell, face);
+    }
+    return first;
+}
+
+void ShellSearch::find_enclosures() {
+    std::vector<std::uint32_t> closed(triangles_.size(), no_index);
+    for (FaceIndex face = 0; face < triangles_.size(); ++face)
+        if (is_closed(face)) closed[face] = found_.of_face[face];
+    const std::vector<FaceIndex> asked = first_facets();
+    std::vector<PlaceBeside> places;
+    for (const std::uint32_t shell : found_.by_size) {
+        const FaceIndex face = asked[shell];
+        // Inside is where the shell winds more often, this way or that.
+        if (face != no_index) places.push_back({face, found_.in_front[face] >= 0});
+    }
+    std::vector<std::uint32_t> rank(found_.shells.size());
+    for (std::uint32_t i = 0; i < found_.by_size.size(); ++i) rank[found_.by_size[i]] = i;
+    for (const PlaceWinding& found : windings_beside(points_, triangles_, closed, places, Winders::others)) {
+        const std::uint32_t asking = closed[places[found.place].face];
+        if (rank[found.shell] < rank[asking])
+            found_.shells[asking].enclosures.push_back({found.shell, found.winding});
+    }
 }
 
 }  // namespace
 
 Shells find_shells(std::span<const Point> points, std::span<const Triangle> triangles,
                    const EdgeTable& edges) {
-    Shells result = gather_shells(points, triangles, edges);
-    std::vector<bool> asks(result.shells.size());
-    for (std::size_t shell = 0; shell < asks.size(); ++shell) asks[shell] = result.shells[shell].closed;
-    if (std::count(asks.begin(), asks.end(), true) < 2) return result;
-
-    for (std::uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
-        const std::vector<Query> queries = choose_queries(points, triangles, result, asks, attempt);
-        if (queries.empty()) break;
-        const QueryGrid grid(queries);
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::int32_t> winding;  // {asking shell, other}
-        std::vector<bool> on_another(result.shells.size());
-        for (FaceIndex face = 0; face < triangles.size(); ++face) {
-            const std::uint32_t shell = result.of_face[face];
-            if (shell == no_index || !result.shells[shell].closed) continue;
-            const auto [i, j, k] = triangles[face];
-            const std::array<Point, 3> facet{points[i], points[j], points[k]};
-            const auto [y0, y1] = std::minmax({facet[0].y, facet[1].y, facet[2].y});
-            const auto [z0, z1] = std::minmax({facet[0].z, facet[1].z, facet[2].z});
-            const std::int32_t x0 = std::min({facet[0].x, facet[1].x, facet[2].x});
-            grid.for_each_in(y0, y1, z0, z1, [&, y0 = y0, y1 = y1, z0 = z0, z1 = z1](const Query& query) {
-                const Point q = query.point;
-                if (query.shell == shell || q.x < x0 || q.y < y0 || q.y > y1 || q.z < z0 || q.z > z1) return;
-                const Crossing crossing = crossing_to_the_left(facet, q);
-                if (crossing.at_start) on_another[query.shell] = true;
-                if (crossing.direction != 0) winding[{query.shell, shell}] += crossing.direction;
-            });
-        }
-        const bool last = attempt + 1 == most_attempts;
-        for (const Query& query : queries) asks[query.shell] = on_another[query.shell] && !last;
-        for (const auto& [pair, turns] : winding)
-            if (turns != 0 && !asks[pair.first])
-                result.shells[pair.first].enclosures.push_back({pair.second, turns});
-    }
-    return result;
+    return ShellSearch(points, triangles, edges).run();
 }
 
 }  // namespace octavo::mesh

@@ -58,6 +58,19 @@ Components number_labels(DisjointSets& sets, std::span<const std::uint32_t> memb
     return components;
 }
 
+/// Facets are together when they share an edge that has at most so many.
+Components components_by_edges_of(const EdgeTable& edges, std::size_t face_count, std::size_t most_facets) {
+    DisjointSets sets(face_count);
+    for (EdgeIndex edge = 0; edge < edges.size(); ++edge) {
+        const auto sides = edges.sides_of(edge);
+        for (std::size_t i = 1; i < sides.size() && sides.size() <= most_facets; ++i)
+            sets.unite(sides[0] / 3, sides[i] / 3);
+    }
+    std::vector<std::uint32_t> member(face_count);
+    for (std::uint32_t face = 0; face < face_count; ++face) member[face] = face;
+    return number_labels(sets, member);
+}
+
 }  // namespace
 
 Status check_sides_can_be_numbered(std::size_t triangles) {
@@ -108,14 +121,11 @@ Components components_by_vertex(std::span<const Triangle> triangles, std::size_t
 }
 
 Components components_by_edge(const EdgeTable& edges, std::size_t face_count) {
-    DisjointSets sets(face_count);
-    for (EdgeIndex edge = 0; edge < edges.size(); ++edge) {
-        const auto sides = edges.sides_of(edge);
-        for (std::size_t i = 1; i < sides.size(); ++i) sets.unite(sides[0] / 3, sides[i] / 3);
-    }
-    std::vector<std::uint32_t> member(face_count);
-    for (std::uint32_t face = 0; face < face_count; ++face) member[face] = face;
-    return number_labels(sets, member);
+    return components_by_edges_of(edges, face_count, no_index);
+}
+
+Components components_by_plain_edge(const EdgeTable& edges, std::size_t face_count) {
+    return components_by_edges_of(edges, face_count, 2);
 }
 
 std::vector<SideIndex> fan_of_corner(const EdgeTable& edges, std::span<const Triangle> triangles) {

@@ -66,6 +66,9 @@ Components components_by_vertex(std::span<const Triangle> triangles, std::size_t
 /// Facets are together when they share an edge.
 Components components_by_edge(const EdgeTable& edges, std::size_t face_count);
 
+/// Facets are together when they share an edge that no third facet has: the patches of a surface.
+Components components_by_plain_edge(const EdgeTable& edges, std::size_t face_count);
+
 /// For each corner, the smallest corner of its fan: the corners at one vertex whose facets are joined, one to
 /// the next, by edges at that vertex. A vertex of a surface has one fan; where surfaces only touch it has
 /// more.

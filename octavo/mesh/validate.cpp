@@ -113,6 +113,7 @@ class Validation {
     void judge_facets();
     void judge_shells();
     Status judge_pairs();
+    std::vector<FacePair> pairs_that_snapping_makes_one(const std::vector<Triangle>& on_lattice) const;
     void conclude();
     void add(ProblemKind kind, Finding finding);
     void add_pairs(ProblemKind kind, std::span<const FacePair> pairs);
@@ -255,7 +256,9 @@ void Validation::judge_shells() {
     for (FaceIndex face = 0; face < triangles_.size(); ++face) {
         const std::uint32_t shell = shells.of_face[face];
         if (shell == no_index) continue;
-        if (shells.shells[shell].inside_out()) inside_out.faces.push_back(face);
+        if (shells.shells[shell].inside_out() &&
+            shells.shells[shell].winding_around() + shells.in_front[face] < 0)
+            inside_out.faces.push_back(face);
         if (!shells.shells[shell].flat() || is_sheet[shell]) continue;
         const auto [i, j, k] = triangles_[face];
         is_sheet[shell] = !exact::collinear(points_[i], points_[j], points_[k]);
@@ -280,9 +283,34 @@ Status Validation::judge_pairs() {
     if (!pairs) return pairs.error();
     add_pairs(ProblemKind::self_intersections, pairs->crossing);
     add_pairs(ProblemKind::penetrations, pairs->penetrating);
-    add_pairs(ProblemKind::overlaps, pairs->overlapping);
+    std::vector<FacePair> overlapping = pairs->overlapping;
+    if (met) {
+        const std::vector<FacePair> coincident = pairs_that_snapping_makes_one(renamed(triangles_, map));
+        overlapping.insert(overlapping.end(), coincident.begin(), coincident.end());
+    }
+    add_pairs(ProblemKind::overlaps, overlapping);
     add_pairs(ProblemKind::touching_facets, pairs->touching);
     return Done{};
+}
+
+/// Facets with other corners in the file and the same ones on the lattice, each with the first such; `on_lattice` names
+/// lattice points.
+std::vector<FacePair> Validation::pairs_that_snapping_makes_one(
+    const std::vector<Triangle>& on_lattice) const {
+    std::vector<FacePair> pairs;
+    const EdgeTable edges = build_edges(on_lattice, points_.size());
+    for (const std::vector<FaceIndex>& group : groups_of_repeated_facets(on_lattice, edges)) {
+        const auto corners_of = [&](FaceIndex face) {
+            Triangle corners = triangles_[face];
+            std::sort(corners.begin(), corners.end());
+            return corners;
+        };
+        const auto [i, j, k] = triangles_[group[0]];
+        if (exact::collinear(points_[i], points_[j], points_[k])) continue;
+        for (std::size_t other = 1; other < group.size(); ++other)
+            if (corners_of(group[other]) != corners_of(group[0])) pairs.push_back({group[0], group[other]});
+    }
+    return pairs;
 }
 
 void Validation::add_pairs(ProblemKind kind, std::span<const FacePair> pairs) {

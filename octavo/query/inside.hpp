@@ -37,19 +37,24 @@ namespace octavo::query {
 
 enum class Side : std::int8_t {
     inside = -1,
-    on = 0,  ///< on a facet of the surface, also on one that lies inside the solid because shells overlap
+    on =
+        0,  ///< on a facet of the surface: also on one without area, and on one inside the solid where shells overlap
     outside = 1,
 };
 
 struct InsideOptions {
     classic::OpenPolicy open = classic::OpenPolicy::reject;
     /// Cells with at most this many facets are not split further, nor those with up to four times as many that all
-    /// share a corner, nor those with up to sixteen times as many of which all but `leaf_facets` are slivers far longer
-    /// than the cell. Measured: with 4 a query near the surface of a scan
-    /// costs least; 2 doubles the memory for a few per cent, 8 costs a third more time.
+    /// share a corner. Measured: with 4 a query near the surface of a scan costs least; 2 doubles the memory for a few
+    /// per cent, 8 costs a third more time.
     int leaf_facets = 4;
     /// The deepest level, at most 21. Around a vertex with more facets than `leaf_facets` splitting would not end.
     int depth = 12;
+    /// For each facet of the solid so many references to facets, 4 bytes each, in all leaves together at most: the
+    /// memory is linear whatever the shape. Scans need 10. Slivers side by side and surfaces like the pages of a book get
+    /// 90: a cell is split only if even all of its facets in all octants were within the bound. Of cylinders with 10 000
+    /// sides twice as many make a query near the surface 1.7 times as fast, for twice the memory and time to build.
+    int references = 512;
 };
 
 class InsideQuery {
@@ -71,6 +76,8 @@ class InsideQuery {
 
     const exact::Lattice& lattice() const { return lattice_; }
     std::size_t memory_bytes() const;
+    /// To facets, in all leaves together.
+    std::size_t reference_count() const { return reference_count_; }
 
   private:
     struct Located;
@@ -87,6 +94,7 @@ class InsideQuery {
     exact::Lattice lattice_;
     double inverse_unit_ = 1;
     CellIndex cells_;
+    std::size_t reference_count_ = 0;
     /// In the order in which the leaves name them, so that those of one place lie side by side; one more after the
     /// last, because they are read in words of 16 bytes.
     std::vector<classic::FacetCorners, HugePageAllocator<classic::FacetCorners>> facets_;

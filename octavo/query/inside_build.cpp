@@ -3,7 +3,9 @@
 #include <limits>
 
 #include <octavo/classic/facet_lists.hpp>
+#include <octavo/exact/int128.hpp>
 #include <octavo/mesh/snap.hpp>
+#include <octavo/query/bare_facets.hpp>
 #include <octavo/query/inside.hpp>
 
 // Building the inside query: the descent of the classic octree, whose leaves, which come in Morton order, become records
@@ -21,6 +23,12 @@ using octree::Cell;
 using octree::CellKey;
 using octree::Node;
 
+/// The facets of a cell, and how many references to facets the leaves in it may hold.
+struct Share {
+    FacetRange range;
+    std::uint64_t references = 0;
+};
+
 /// The leaves in Morton order; those of gray ones with their records.
 class LeafList {
   public:
@@ -28,14 +36,16 @@ class LeafList {
         FacetLists lists;
     };
 
-    void split(const Cell&, const FacetRange&, const Workspace&) {}
+    void split(const Cell&, const Share&, const Workspace&) {}
 
-    void leaf(const Cell& cell, const octree::Restricted<FacetRange>& leaf, const Workspace& workspace) {
+    void leaf(const Cell& cell, const octree::Restricted<Share>& leaf, const Workspace& workspace) {
         CellIndex::Item item{cell.key(), {kind_of(leaf.node), 0}};
-        if (leaf.node == Node::gray)
-            item.entry.value = static_cast<std::uint32_t>(
-                LeafRecord::append(records, cell.level, leaf.description.winding,
-                                   workspace.lists.list(cell.level, leaf.description)));
+        if (leaf.node == Node::gray) {
+            const FacetRange& range = leaf.description.range;
+            item.entry.value = static_cast<std::uint32_t>(LeafRecord::append(
+                records, cell.level, range.winding, workspace.lists.list(cell.level, range)));
+            references += range.size();
+        }
         items.push_back(item);
     }
 
@@ -50,10 +60,12 @@ class LeafList {
                 item.entry.value += static_cast<std::uint32_t>(records.size());
         items.insert(items.end(), next.items.begin(), next.items.end());
         records.insert(records.end(), next.records.begin(), next.records.end());
+        references += next.references;
     }
 
     std::vector<CellIndex::Item> items;
     std::vector<std::uint32_t> records;
+    std::size_t references = 0;  ///< to facets, in all records
 
   private:
     static CellIndex::Kind kind_of(Node node) {
@@ -63,9 +75,14 @@ class LeafList {
     }
 };
 
+/// Where surfaces lie beside each other like the pages of a book no splitting separates them: each of a thousand pages
+/// runs through four octants, and down to cells that hold one alone leaves would hold a million references. So the
+/// references are rationed. A cell is split when even the worst, all facets in all octants, is within its ration; leaves
+/// take of it what they hold, and the rest goes to the other octants by their facets. Rations depend on the cell alone,
+/// not on order or threads.
 class InsideProblem {
   public:
-    using Description = FacetRange;
+    using Description = Share;
     using Workspace = LeafList::Workspace;
     using Output = LeafList;
 
@@ -75,53 +92,55 @@ class InsideProblem {
     int depth() const { return options_.depth; }
     Workspace make_workspace() const { return {}; }
     Output make_output() const { return {}; }
-    std::size_t weight(const FacetRange& range) const { return range.size(); }
+    std::size_t weight(const Share& share) const { return share.range.size(); }
 
-    octree::Restricted<FacetRange> root(Workspace& workspace) const {
+    octree::Restricted<Share> root(Workspace& workspace) const {
         const FacetRange range = classic::universe_facets(facets_, Touch::half_open, workspace.lists);
-        return {node_of(Cell::root(), range, workspace.lists.list(0, range)), range};
+        const Share all{range, static_cast<std::uint64_t>(options_.references) * range.size()};
+        return {rationed(node_of(range, workspace.lists.list(0, range)), all), all};
     }
 
-    void restrict_to_children(const Cell& cell, const FacetRange& range, Workspace& workspace,
-                              octree::Children<FacetRange>& children) const {
+    void restrict_to_children(const Cell& cell, const Share& share, Workspace& workspace,
+                              octree::Children<Share>& children) const {
         const OctantFacets found =
-            classic::find_octants<Touch::half_open>(facets_, cell, range, workspace.lists);
-        const std::array<FacetRange, 8> ranges = distribute(cell, range, found, workspace.lists);
+            classic::find_octants<Touch::half_open>(facets_, cell, share.range, workspace.lists);
+        const std::array<FacetRange, 8> ranges = distribute(cell, share.range, found, workspace.lists);
+        std::uint64_t left = share.references, to_split = 0;
         for (std::size_t octant = 0; octant < 8; ++octant) {
-            const std::span<const std::uint32_t> list = workspace.lists.list(cell.level + 1, ranges[octant]);
-            children[octant] = {node_of(cell.child(static_cast<int>(octant)), ranges[octant], list),
-                                ranges[octant]};
+            const FacetRange& range = ranges[octant];
+            children[octant] = {node_of(range, workspace.lists.list(cell.level + 1, range)),
+                                {range, range.size()}};
+            if (children[octant].node == Node::split)
+                to_split += range.size();
+            else
+                left -= range.size();
+        }
+        for (octree::Restricted<Share>& child : children) {
+            if (child.node != Node::split) continue;
+            const std::uint64_t facets = child.description.range.size();
+            child.description.references =
+                static_cast<std::uint64_t>(exact::uint128{left} * facets / to_split);
+            child.node = rationed(child.node, child.description);
         }
     }
 
-    FacetRange transfer(const Cell& cell, const FacetRange& range, const Workspace& from,
-                        Workspace& to) const {
-        return classic::transfer(cell, range, from.lists, to.lists);
+    Share transfer(const Cell& cell, const Share& share, const Workspace& from, Workspace& to) const {
+        return {classic::transfer(cell, share.range, from.lists, to.lists), share.references};
     }
 
   private:
-    Node node_of(const Cell& cell, const FacetRange& range, std::span<const std::uint32_t> list) const {
+    /// What to make of a cell that holds these facets, if there are references for it.
+    Node node_of(const FacetRange& range, std::span<const std::uint32_t> list) const {
         if (list.empty()) return range.winding > 0 ? Node::black : Node::white;
         const auto few = static_cast<std::size_t>(options_.leaf_facets);
         if (list.size() <= few) return Node::gray;
         // Splitting never separates facets that share a corner, and corners have six facets on average.
-        if (list.size() <= 4 * few && share_a_corner(list)) return Node::gray;
-        // Slivers side by side: four octants get half of them each, so that splitting doubles what it lists. Of a cylinder of
-        // 10 000 sides this leaves 1.1 kB a facet; to the last level it is more leaves than can be numbered.
-        return list.size() <= 16 * few && long_ones(cell, list) + few >= list.size() ? Node::gray
-                                                                                     : Node::split;
+        return list.size() <= 4 * few && share_a_corner(list) ? Node::gray : Node::split;
     }
 
-    /// How many of the facets are far longer than the cell.
-    std::size_t long_ones(const Cell& cell, std::span<const std::uint32_t> list) const {
-        const std::int64_t far = 16 * std::int64_t{cell.side()};
-        return static_cast<std::size_t>(std::count_if(list.begin(), list.end(), [&](std::uint32_t index) {
-            const Facet& facet = facets_[index];
-            std::int64_t extent = 0;
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                extent = std::max(extent, std::int64_t{facet.high[axis]} - facet.low[axis]);
-            return extent >= far;
-        }));
+    static Node rationed(Node node, const Share& share) {
+        return node == Node::split && share.references < 8 * std::uint64_t{share.range.size()} ? Node::gray
+                                                                                               : node;
     }
 
     bool share_a_corner(std::span<const std::uint32_t> list) const {
@@ -177,16 +196,21 @@ Array take_facets(LeafList& leaves, std::span<const Facet> facets) {
 
 Result<InsideQuery> InsideQuery::build(const mesh::LatticeMesh& mesh, const InsideOptions& options,
                                        const Context& context) {
-    if (options.depth < 0 || options.depth > octree::max_level || options.leaf_facets < 0)
-        return Error{ErrorCode::bad_input,
-                     "the depth of an inside query is 0 to 21 and its leaves hold 0 facets or more",
-                     {}};
+    if (options.depth < 0 || options.depth > octree::max_level || options.leaf_facets < 0 ||
+        options.references < 1)
+        return Error{
+            ErrorCode::bad_input,
+            "the depth of an inside query is 0 to 21, its leaves hold 0 facets or more, and there is a "
+            "reference or more for each",
+            {}};
     Result<std::vector<Facet>> facets = classic::facets_of(mesh);
     if (!facets) return facets.error();
+    const std::vector<Facet> bare = bare_facets(mesh, *facets);
     if (const std::vector<classic::OpenEdge> open = classic::open_edges(mesh); !open.empty()) {
         if (options.open == classic::OpenPolicy::reject) return classic::open_surface_error(open);
         facets = classic::facets_of(classic::close_holes(mesh, open));
     }
+    facets->insert(facets->end(), bare.begin(), bare.end());
     octree::DescentOptions descent;
     descent.phase = "inside";
     Result<LeafList> leaves = octree::descend(InsideProblem(*facets, options), context, descent);
@@ -201,6 +225,7 @@ Result<InsideQuery> InsideQuery::build(const mesh::LatticeMesh& mesh, const Insi
     query.inverse_unit_ = 1 / mesh.lattice.unit();
     query.facets_ = take_facets<decltype(facets_)>(*leaves, *facets);
     query.cells_ = CellIndex(leaves->items, leaves->records);
+    query.reference_count_ = leaves->references;
     return query;
 }
 

@@ -87,7 +87,7 @@ struct InProjection {
     bool within_displaced;  ///< inside after the displacement
 };
 
-/// `first` < `second` are the axes that are kept. The projection must have area.
+/// `first` < `second` are the axes that are kept. A projection without area holds its line, and no displaced point.
 inline InProjection in_projection(const MixedPoint& point, const FacetCorners& facet, std::size_t first,
                                   std::size_t second) {
     bool any_left = false, any_right = false, all_left = true, all_right = true;
@@ -126,8 +126,13 @@ inline bool in_bounds(const LatticePlace& place, const Bounds& bounds, std::size
            (whole < bounds.high[axis] || (whole == bounds.high[axis] && place.part[axis] == 0));
 }
 
-/// Whether the point, known to be in the facet's bounds, lies on a facet parallel to z.
+/// Whether the point, known to be in the facet's bounds, lies on a facet parallel to z or on one without area.
 bool is_on_upright_facet(const MixedPoint& point, const FacetCorners& facet, const Normal& n) {
+    // A segment is where its bounds and its line are, and its line where that is in every projection.
+    if (n.is_zero())
+        return in_projection(point, facet, 1, 2).within_closed &&
+               in_projection(point, facet, 0, 2).within_closed &&
+               in_projection(point, facet, 0, 1).within_closed;
     if (sign_at(point, {n.x, n.y, n.z}, facet[0]) != 0) return false;
     return n.x != 0 ? in_projection(point, facet, 1, 2).within_closed
                     : in_projection(point, facet, 0, 2).within_closed;

@@ -147,4 +147,20 @@ inline Place place_of(const ScaledSurface& surface, const IntegerPoint& p) {
     }
 }
 
+/// Whether a point lies between two corners of some facet: what there is of one without area.
+inline bool is_between_corners(const ScaledSurface& surface, const IntegerPoint& p) {
+    for (const std::array<IntegerPoint, 3>& triangle : surface.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            IntegerPoint u, v;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                u[axis] = triangle[k][axis] - p[axis];
+                v[axis] = triangle[(k + 1) % 3][axis] - p[axis];
+            }
+            const bool on_line =
+                u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] && u[0] * v[1] == u[1] * v[0];
+            if (on_line && u[0] * v[0] + u[1] * v[1] + u[2] * v[2] <= 0) return true;
+        }
+    return false;
+}
+
 }  // namespace octavo::tests

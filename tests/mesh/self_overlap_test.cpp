@@ -83,6 +83,13 @@ TEST(SelfOverlap, IsNotContact) {
         << "a filled cavity";
 }
 
+TEST(SelfOverlap, IsInABodyThatHangsInsideOutAtAnEdge) {
+    const Mesh large = box({0, 0, 0}, {4, 4, 4}), small = box({4, 4, 0}, {5, 5, 4});
+    EXPECT_FALSE(overlaps(both(large, small)));
+    EXPECT_TRUE(overlaps(both(large, reversed(small))));
+    EXPECT_TRUE(overlaps(both(reversed(large), small)));
+}
+
 TEST(SelfOverlap, IsNotAPatchThatIsFoldedFlat) {
     // The middle of the upper face is pushed past its rim within the plane.
     Mesh mesh = box({0, 0, 0}, {4, 4, 4});

@@ -272,6 +272,31 @@ TEST(Validate, FindsDoubleSheetsThatOnlyTheLatticeMakes) {
     EXPECT_EQ(speck.count(ProblemKind::flat_shells), 0u);
 }
 
+TEST(Validate, TellsBodiesThatOnlyTheLatticeMakesOne) {
+    const Mesh one = box({0, 0, 0}, {1, 1, 1});
+    for (const Mesh& other : {moved(one, {1e-10, 1e-10, 1e-10}), flipped(moved(one, {0, 1e-10, 0}))}) {
+        const Report report = report_of(both(one, other));
+        EXPECT_EQ(report.count(ProblemKind::duplicate_facets), 0u);
+        EXPECT_EQ(report.count(ProblemKind::overlaps), one.triangles.size());
+        EXPECT_EQ(faces_of(report, ProblemKind::overlaps).size(), 2 * one.triangles.size());
+        EXPECT_FALSE(report.solid);
+    }
+    // What is the same in the file already is told as that, and one facet beside it is one pair more.
+    Mesh doubled = both(one, one);
+    EXPECT_EQ(report_of(doubled).count(ProblemKind::overlaps), 0u);
+    EXPECT_EQ(report_of(doubled).count(ProblemKind::duplicate_facets), one.triangles.size());
+}
+
+TEST(Validate, NamesThePartThatIsInsideOutAtACommonEdge) {
+    const Mesh large = box({0, 0, 0}, {2, 2, 1}), small = box({2, 2, 0}, {3, 3, 1});
+    const Report report = report_of(both(large, flipped(small)));
+    EXPECT_EQ(report.count(ProblemKind::inside_out_shells), 1u);
+    EXPECT_FALSE(report.solid);
+    const std::vector<FaceIndex> faces = faces_of(report, ProblemKind::inside_out_shells);
+    EXPECT_EQ(faces.size(), small.triangles.size());
+    EXPECT_EQ(faces.front(), large.triangles.size());
+}
+
 TEST(Validate, CountsBodiesInBodies) {
     const Mesh nested = both(box({-2, -2, -2}, {2, 2, 2}), box({-1, -1, -1}, {1, 1, 1}));
     EXPECT_EQ(report_of(nested).nested_bodies, 1u);

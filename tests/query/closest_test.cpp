@@ -191,6 +191,22 @@ TEST(Closest, DistancesAreNegativeInsideAndZeroOnTheSurface) {
     EXPECT_EQ((*query)({6, 7, 10}).feature, Feature::vertex);
 }
 
+TEST(Closest, IsZeroWhereTheInsideTestSaysOn) {
+    // Beside a body a needle of a body, whose points are all on one line of the lattice.
+    mesh::Mesh mesh = tests::box({0, 0, 0}, {40, 40, 40});
+    const auto first = static_cast<mesh::VertexIndex>(mesh.vertices.size());
+    for (const double t : {0.0, 1.0, 2.0, 5.0}) mesh.vertices.push_back({50 + 3 * t, 60 - t, 10 + 2 * t});
+    for (const mesh::Triangle& t : {mesh::Triangle{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    const ClosestQuery distance = *ClosestQuery::build(mesh);
+    const InsideQuery inside = *InsideQuery::build(mesh);
+    for (const double t : {0.0, 0.5, 1.75, 5.0, 5.5}) {
+        const Vec3 place{50 + 3 * t, 60 - t, 10 + 2 * t};
+        EXPECT_EQ(distance(place).distance == 0, t <= 5) << t;
+        EXPECT_EQ(inside(place), t <= 5 ? Side::on : Side::outside) << t;
+    }
+}
+
 TEST(Closest, PointsThatAreNotFiniteAndPointsFarAwayAreAnsweredByRule) {
     auto query = ClosestQuery::build(tests::box({0, 0, 0}, {4, 4, 4}));
     ASSERT_TRUE(query.has_value());

@@ -52,7 +52,9 @@ class Oracle {
 
     Side operator()(Vec3 p) const {
         const auto scaled = [&](double v) { return Integer(exact_multiple(v) >> (bits - scale_bits_)); };
-        const tests::Place place = tests::place_of(surface_, {scaled(p.x), scaled(p.y), scaled(p.z)});
+        const tests::IntegerPoint point{scaled(p.x), scaled(p.y), scaled(p.z)};
+        if (tests::is_between_corners(surface_, point)) return Side::on;
+        const tests::Place place = tests::place_of(surface_, point);
         return place.on_facet ? Side::on : place.winding > 0 ? Side::inside : Side::outside;
     }
 
@@ -190,6 +192,91 @@ TEST(InsideQuery, AnswersForFansOfSliversWithoutCuttingThemSmall) {
     const Result<InsideQuery> query = InsideQuery::build(snapped->mesh);
     ASSERT_TRUE(query);
     EXPECT_LT(query->memory_bytes(), 1000 * snapped->mesh.triangles.size());
+}
+
+/// A double cone whose rim goes in and out: its facets lie about the axis like the pages of a book.
+mesh::Mesh star(mesh::VertexIndex rim, double inner, double depth) {
+    mesh::Mesh mesh;
+    mesh.vertices = {{0, 0, -depth}, {0, 0, 1}};
+    for (mesh::VertexIndex i = 0; i < rim; ++i) {
+        const double angle = 2 * 3.14159265358979323846 * i / rim, radius = i % 2 ? 1 : inner;
+        mesh.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+        const mesh::VertexIndex a = 2 + i, b = 2 + (i + 1) % rim;
+        mesh.triangles.push_back({1, a, b});
+        mesh.triangles.push_back({0, b, a});
+    }
+    return mesh;
+}
+
+TEST(InsideQuery, HoldsSoManyReferencesAFacetAndNoMoreWhateverTheShape) {
+    for (const mesh::VertexIndex rim : {1000U, 4000U}) {
+        const auto snapped = mesh::snap(star(rim, 0.2, 1));
+        ASSERT_TRUE(snapped);
+        const std::size_t facets = snapped->mesh.triangles.size();
+        for (const int references : {1, 20, InsideOptions{}.references}) {
+            InsideOptions options;
+            options.references = references;
+            const Result<InsideQuery> query = InsideQuery::build(snapped->mesh, options, with_threads(1));
+            ASSERT_TRUE(query);
+            EXPECT_LE(query->reference_count(), static_cast<std::size_t>(references) * facets);
+            EXPECT_LT(query->memory_bytes(), (6 * static_cast<std::size_t>(references) + 200) * facets);
+        }
+    }
+    const auto small = mesh::snap(star(200, 0.2, 1));
+    for (const int references : {1, 20, 512}) {
+        InsideOptions options;
+        options.references = references;
+        const Tally tally =
+            expect_answers_of_the_oracle(small->mesh, telling_points(small->mesh, 300, 5), 120, options);
+        EXPECT_GT(std::min({tally.inside, tally.on, tally.outside}), 10u);
+    }
+}
+
+/// A body that is a line on the lattice, beside one that has volume.
+mesh::LatticeMesh with_a_collapsed_body(bool is_alone) {
+    mesh::LatticeMesh mesh = tests::box({1000, 1000, 1000}, {4000, 4000, 4000});
+    if (is_alone) mesh.triangles.clear();
+    const auto first = static_cast<mesh::VertexIndex>(mesh.points.size());
+    for (const std::int32_t t : {0, 3, 7, 20})
+        mesh.points.push_back({5000 + 300 * t, 2000 + 500 * t, 6000 - 100 * t});
+    for (const mesh::Triangle& t : {mesh::Triangle{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    return mesh;
+}
+
+TEST(InsideQuery, IsOnWhatHasNoAreaAsTheDistanceThereIsNone) {
+    for (const bool is_alone : {false, true}) {
+        const mesh::LatticeMesh mesh = with_a_collapsed_body(is_alone);
+        for (const int leaf_facets : {1, 4, 12}) {
+            InsideOptions options;
+            options.leaf_facets = leaf_facets;
+            const InsideQuery query = *InsideQuery::build(mesh, options, with_threads(1));
+            const auto at = [&](double t) { return Vec3{5000 + 300 * t, 2000 + 500 * t, 6000 - 100 * t}; };
+            for (const double t : {0.0, 3.0, 7.0, 20.0, 0.125, 12.75, 19.5}) {
+                EXPECT_EQ(query(at(t)), Side::on) << t;
+                for (int axis = 0; axis < 3; ++axis)
+                    for (const double to : {-1e300, 1e300}) {
+                        Vec3 beside = at(t);
+                        beside[axis] = std::nextafter(beside[axis], to);
+                        EXPECT_EQ(query(beside), Side::outside) << t;
+                    }
+            }
+            EXPECT_EQ(query(at(-0.125)), Side::outside);
+            EXPECT_EQ(query(at(20.125)), Side::outside);
+            EXPECT_EQ(query({2000, 2000, 2000}), is_alone ? Side::outside : Side::inside);
+        }
+    }
+    // Along an axis, across the body, and as one point.
+    mesh::LatticeMesh mesh = tests::box({1000, 1000, 1000}, {4000, 4000, 4000});
+    mesh.points.insert(mesh.points.end(), {{500, 2000, 2000}, {4500, 2000, 2000}, {6000, 6000, 6000}});
+    mesh.triangles.insert(mesh.triangles.end(), {{8, 9, 9}, {10, 10, 10}});
+    const InsideQuery query = *InsideQuery::build(mesh);
+    for (const double x : {500.0, 700.5, 1000.0, 2000.25, 4500.0})
+        EXPECT_EQ(query({x, 2000, 2000}), Side::on) << x;
+    EXPECT_EQ(query({499.5, 2000, 2000}), Side::outside);
+    EXPECT_EQ(query({2000, 2000, 2000.5}), Side::inside);
+    EXPECT_EQ(query({6000, 6000, 6000}), Side::on);
+    EXPECT_EQ(query({6000, 6000, 6000.5}), Side::outside);
 }
 
 TEST(InsideQuery, SeesTheSmallestDoublesBesideAFacet) {
