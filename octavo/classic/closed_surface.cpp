@@ -4,6 +4,7 @@
 #include <string>
 
 #include <octavo/classic/closed_surface.hpp>
+#include <octavo/mesh/disjoint_sets.hpp>
 
 namespace octavo::classic {
 namespace {
@@ -69,11 +70,6 @@ std::vector<VertexIndex> coincident_vertices(const std::vector<exact::Point>& po
     return lowest;
 }
 
-VertexIndex root_of(std::vector<VertexIndex>& parent, VertexIndex vertex) {
-    while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
-    return vertex;
-}
-
 }  // namespace
 
 std::vector<OpenEdge> open_edges(const mesh::LatticeMesh& mesh) {
@@ -101,12 +97,8 @@ Error open_surface_error(const std::vector<OpenEdge>& edges) {
 
 mesh::LatticeMesh close_holes(const mesh::LatticeMesh& mesh, const std::vector<OpenEdge>& edges) {
     mesh::LatticeMesh closed = mesh;
-    std::vector<VertexIndex> parent(mesh.points.size());
-    std::iota(parent.begin(), parent.end(), VertexIndex{0});
-    for (const OpenEdge& edge : edges) {
-        const VertexIndex a = root_of(parent, edge.from), b = root_of(parent, edge.to);
-        parent[std::max(a, b)] = std::min(a, b);
-    }
+    mesh::DisjointSets pieces(mesh.points.size());
+    for (const OpenEdge& edge : edges) pieces.unite(edge.from, edge.to);
 
     // The mean of the ends of each piece's edges, rounded: the apex, as a new vertex.
     struct Sum {
@@ -115,7 +107,7 @@ mesh::LatticeMesh close_holes(const mesh::LatticeMesh& mesh, const std::vector<O
     };
     std::vector<Sum> sums(mesh.points.size());
     for (const OpenEdge& edge : edges) {
-        Sum& sum = sums[root_of(parent, edge.from)];
+        Sum& sum = sums[pieces.find(edge.from)];
         for (const VertexIndex end : {edge.from, edge.to}) {
             const exact::Point p = mesh.points[end];
             sum.x += p.x, sum.y += p.y, sum.z += p.z, ++sum.count;
@@ -132,7 +124,7 @@ mesh::LatticeMesh close_holes(const mesh::LatticeMesh& mesh, const std::vector<O
     // A facet against the surplus direction; its two other edges cancel around the piece, whose ends balance.
     for (const OpenEdge& edge : edges)
         for (std::int32_t i = 0; i < edge.surplus; ++i)
-            closed.triangles.push_back({edge.to, edge.from, sums[root_of(parent, edge.from)].apex});
+            closed.triangles.push_back({edge.to, edge.from, sums[pieces.find(edge.from)].apex});
     return closed;
 }
 

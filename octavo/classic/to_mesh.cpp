@@ -8,6 +8,7 @@
 
 #include <octavo/classic/boundary_squares.hpp>
 #include <octavo/classic/to_mesh.hpp>
+#include <octavo/mesh/disjoint_sets.hpp>
 
 namespace octavo::classic {
 namespace {
@@ -77,20 +78,9 @@ struct Side {
     bool upwards;
 };
 
-/// Doubles the vertices where the surface meets itself: slots (a corner of a polygon) that are joined across an edge
+/// Where the surface meets itself its vertices are doubled: slots (a corner of a polygon) that are joined across an edge
 /// or within it are one vertex.
-class Fans {
-  public:
-    explicit Fans(std::size_t slots) : parent_(slots) { std::iota(parent_.begin(), parent_.end(), 0U); }
-    Index find(Index slot) {
-        while (parent_[slot] != slot) slot = parent_[slot] = parent_[parent_[slot]];
-        return slot;
-    }
-    void join(Index a, Index b) { parent_[std::max(find(a), find(b))] = std::min(find(a), find(b)); }
-
-  private:
-    std::vector<Index> parent_;
-};
+using Fans = mesh::DisjointSets;
 
 // Corners of squares, and then of polygons, are numbered by 32 bits.
 constexpr std::size_t most_corners = 0xFFFFFFF0U;
@@ -211,8 +201,8 @@ class Builder {
     }
 
     void join(Fans& fans, const Side& a, const Side& b) const {
-        fans.join(a.slot, next(b.polygon, b.slot));
-        fans.join(next(a.polygon, a.slot), b.slot);
+        fans.unite(a.slot, next(b.polygon, b.slot));
+        fans.unite(next(a.polygon, a.slot), b.slot);
     }
 
     mesh::Mesh triangles(Fans& fans) const {

@@ -319,10 +319,9 @@ TEST(Repair, OfEveryModelIsStableAndHarmless) {
             const Report before = *validate(read->mesh, quick);
             const Repaired result = repaired(read->mesh);
             const Report after = *validate(result.mesh, quick);
-            // Edges that were closed only by a repeated facet open when it goes.
-            if (result.report.count(RepairKind::dropped_duplicate_facets) == 0) {
-                EXPECT_LE(after.count(ProblemKind::open_edges), before.count(ProblemKind::open_edges));
-            }
+            EXPECT_LE(after.count(ProblemKind::open_edges), before.count(ProblemKind::open_edges));
+            EXPECT_LE(after.count(ProblemKind::inconsistent_orientation),
+                      before.count(ProblemKind::inconsistent_orientation));
             EXPECT_EQ(after.count(ProblemKind::inside_out_shells), 0u);
             EXPECT_LE(after.count(ProblemKind::zero_area_facets),
                       before.count(ProblemKind::zero_area_facets));
