@@ -25,7 +25,7 @@ class CellIndex::Builder {
         const int level = top_level_for(items_.size());
         index_.top_level_ = level;
         const std::uint64_t cells = std::uint64_t{1} << (3 * level);
-        index_.kinds_.resize((cells + cells_a_word - 1) / cells_a_word);
+        index_.kinds_.resize((8 * cells + cells_a_word - 1) / cells_a_word);
         index_.top_.reserve(cells);
         index_.words_.reserve(count_words());
         Entry last, kept;  // Coarse leaves fill several cells in a row.
@@ -35,13 +35,29 @@ class CellIndex::Builder {
                 last = kept = entry;
                 if (entry.kind == Kind::gray) kept.value = keep_record(entry.value);
             }
-            index_.kinds_[cell / cells_a_word] |= static_cast<std::uint64_t>(kept.kind)
-                                                  << 2 * (cell % cells_a_word);
+            keep_kinds(cell, kept);
             index_.top_.push_back(static_cast<std::uint32_t>(kept.kind) << 30 | kept.value);
         }
     }
 
   private:
+    /// The kinds of the octants of a cell of the table.
+    void keep_kinds(std::uint64_t cell, Entry entry) {
+        static_assert(brick_levels == 2, "an octant of the brick is a byte of its masks");
+        std::array<std::uint64_t, 2> masks{};
+        if (entry.kind == Kind::brick)
+            std::memcpy(masks.data(), index_.words_.data() + entry.value, sizeof masks);
+        for (std::uint64_t octant = 8 * cell; octant < 8 * cell + 8; ++octant) {
+            Kind kind = entry.kind;
+            const std::uint64_t shift = octant % 8 * 8, a = masks[0] >> shift & 0xff,
+                                b = masks[1] >> shift & 0xff;
+            if (kind == Kind::brick && b == 0 && a == 0) kind = Kind::white;
+            if (kind == Kind::brick && b == 0 && a == 0xff) kind = Kind::black;
+            index_.kinds_[octant / cells_a_word] |= static_cast<std::uint64_t>(kind)
+                                                    << 2 * (octant % cells_a_word);
+        }
+    }
+
     /// Of all bricks and records, so that they never have to move while they grow.
     std::size_t count_words() const {
         std::size_t words = records_.size();

@@ -24,8 +24,8 @@
 //
 //     kind of cell i = bits i of A and B: 00 white, 10 black, 01 gray, 11 brick
 //
-// The kinds of the table's cells are also kept apart, two bits each: 64 KiB, which stay in the cache, tell nine of ten
-// places in a box what they are.
+// The kinds of cells one level below the table are also kept apart, two bits each: at most 512 KiB, which stay in the cache,
+// tell nineteen of twenty places in a box what they are.
 //
 // Invariant: every place has one leaf. Cost: 24 bytes a brick and 4 a leaf, a quarter of a word for every cell, for two
 // more instructions a level.
@@ -54,9 +54,10 @@ class CellIndex {
     /// are copied. Twice the leaves and the words of the records must be fewer than 2^30.
     CellIndex(std::span<const Item> items, std::span<const std::uint32_t> records);
 
-    /// The kind that `top` will tell, from memory that is nearly always in the cache.
-    Kind top_kind(std::uint64_t code) const {
-        const std::uint64_t cell = code >> (3 * (octree::max_level - top_level_));
+    /// White or black where all of the place's cell one level below the table is; from memory that is nearly always in
+    /// the cache.
+    Kind kind_of(std::uint64_t code) const {
+        const std::uint64_t cell = code >> (3 * (octree::max_level - top_level_ - 1));
         return static_cast<Kind>(kinds_[cell / cells_a_word] >> 2 * (cell % cells_a_word) & 3);
     }
     /// Loads of one search that depend on each other: `top`, then `below` for as long as the kind is brick, with
@@ -79,7 +80,7 @@ class CellIndex {
         return {kind, words[head_words - 1 + static_cast<std::size_t>(begun)]};
     }
     Entry find(std::uint64_t code) const {
-        const Kind kind = top_kind(code);
+        const Kind kind = kind_of(code);
         if (kind == Kind::white || kind == Kind::black) return {kind, 0};
         Entry entry = top(code);
         for (int level = top_level_; entry.kind == Kind::brick; level += brick_levels) {

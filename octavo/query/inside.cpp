@@ -86,7 +86,7 @@ void InsideQuery::answer_block(std::span<const Vec3> points, std::span<Side> sid
         sides[i] = Side::outside;
         if (!place(points[i], located[i])) continue;
         // Which kind it is nobody foretells, so there are no branches.
-        const CellIndex::Kind kind = cells_.top_kind(located[i].code);
+        const CellIndex::Kind kind = cells_.kind_of(located[i].code);
         sides[i] = kind == CellIndex::Kind::black ? Side::inside : Side::outside;
         cells_.prefetch_top(located[i].code);
         active[under_way] = static_cast<std::uint8_t>(i);
