@@ -21,7 +21,7 @@ std::string write(const Folder& folder, const std::string& text) {
 TEST(ByteSource, EverySourceGivesTheSameParts) {
     const Folder folder;
     std::string text;
-    for (int i = 0; i < 100000; ++i) text += static_cast<char>('a' + i * i % 23);
+    for (unsigned i = 0; i < 100000; ++i) text += static_cast<char>('a' + i * i % 23);
     const std::string path = write(folder, text);
     ByteBlock block(text.size());
     std::memcpy(block.data(), text.data(), text.size());
