@@ -14,7 +14,7 @@
 namespace octavo::fuzz {
 
 inline void check_sound(const io::ReadMesh& read) {
-    OCTAVO_CHECK(!read.mesh.triangles.empty(), "a mesh that was read has facets");
+    OCTAVO_CHECK(!read.mesh.triangles.empty() || !read.warnings.empty(), "a mesh without facets is told of");
     for (const mesh::Triangle& triangle : read.mesh.triangles)
         for (const mesh::VertexIndex corner : triangle)
             OCTAVO_CHECK(corner < read.mesh.vertices.size(), "corners name vertices");
