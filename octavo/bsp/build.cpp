@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include <octavo/bsp/build.hpp>
 
@@ -84,6 +85,13 @@ void TreeBuilder::gather(FragmentPool& pool, std::span<const Fragment> fragments
     }
     planes_.assign(plane_number_.values().begin(), plane_number_.values().end());
     vertices_.assign(vertex_number_.values().begin(), vertex_number_.values().end());
+    coefficients_.clear(), places_.clear();
+    for (const PlaneId id : planes_) {
+        const exact::Plane& plane = pool.planes()[id];
+        coefficients_.push_back({static_cast<double>(plane.a()), static_cast<double>(plane.b()),
+                                 static_cast<double>(plane.c()), plane.d_approximation()});
+    }
+    for (const VertexId vertex : vertices_) places_.push_back(pool.approximation(vertex));
     keeps_signs_ = vertices_.size() * planes_.size() <= most_signs;
     piece_sets_.clear();
     if (keeps_signs_) begin_sets();
@@ -207,6 +215,15 @@ TreeBuilder::Sides TreeBuilder::ask_sides(std::uint32_t number, std::uint32_t pl
 }
 
 int TreeBuilder::ask(std::uint32_t vertex, std::uint32_t plane) const {
+    // The filter of exact/side.hpp, with its proof, on copies that lie side by side.
+    const Coefficients& f = coefficients_[plane];
+    const Vec3& p = places_[vertex];
+    const double ax = f.a * p.x, by = f.b * p.y, cz = f.c * p.z;
+    const double sum = (ax + by) + (cz + f.d);
+    const double magnitude = (std::fabs(ax) + std::fabs(by)) + (std::fabs(cz) + std::fabs(f.d));
+    constexpr double eight_u = 0x1p-50;
+    if (std::fabs(sum) > eight_u * magnitude) [[likely]]
+        return sum > 0 ? 1 : -1;
     return static_cast<int>(pool_->side_of(pool_->planes()[planes_[plane]], vertices_[vertex]));
 }
 
@@ -254,6 +271,7 @@ std::uint32_t TreeBuilder::make_vertex(const Piece& piece, std::uint32_t i, std:
     const auto vertex = static_cast<std::uint32_t>(vertices_.size());
     made_.push_back({made, vertex});
     vertices_.push_back(made);
+    places_.push_back(pool_->approximation(made));
     if (!keeps_signs_) return vertex;
     if (vertex == word_bits * words_) widen_sets();
     // Between two points on one side of a plane, or one on it and one on a side, a point is on that side; between two

@@ -74,6 +74,11 @@ class TreeBuilder {
     std::uint32_t score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end, std::uint32_t enough);
     Sides sides(std::uint32_t piece, std::uint32_t plane) {
         if (!has_piece_sets()) return ask_sides(piece, plane);
+        if (words_ == 1) {
+            const Word vertices = piece_sets_[piece], *const sets = &sets_[std::size_t{3} * plane];
+            if (vertices & sets[2]) return ask_sides(piece, plane);
+            return {(vertices & sets[0]) != 0, (vertices & sets[1]) != 0};
+        }
         const Word *const vertices = vertices_of(piece), *const front = front_set(plane);
         const Word *const back = front + words_, *const unasked = back + words_;
         Word any_front = 0, any_back = 0, open = 0;
@@ -108,6 +113,12 @@ class TreeBuilder {
     Numbering plane_number_, vertex_number_;
     std::vector<PlaneId> planes_;
     std::vector<VertexId> vertices_;
+    // Approximations of both, side by side: most signs are told by them.
+    struct Coefficients {
+        double a, b, c, d;
+    };
+    std::vector<Coefficients> coefficients_;
+    std::vector<Vec3> places_;
     std::vector<Corner> corners_, back_;
     std::vector<Piece> pieces_;
     std::vector<std::uint32_t> list_, front_, back_list_;

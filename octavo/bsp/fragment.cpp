@@ -85,24 +85,29 @@ void FragmentPool::begin_cut(Bound bound, const Plane& plane) {
 }
 
 FragmentPool::Place FragmentPool::place(const Fragment& f) {
+    // Against a wall it is the comparison of one coordinate; that wants walls inside the universe.
+    if (bound_.is_wall() && bound_.twice() > 0) {
+        const exact::AxisPlane wall{bound_.axis(), bound_.twice()};
+        return place(f, [&](VertexId vertex) {
+            return is_lattice(vertex) ? exact::side_of(wall, points_[vertex])
+                                      : exact::side_of(wall, constructed(vertex));
+        });
+    }
+    return place(f, [&](VertexId vertex) { return side_of(plane_, vertex); });
+}
+
+template <class Side>
+FragmentPool::Place FragmentPool::place(const Fragment& f, const Side& side) {
     signs_.resize(f.count);
     bool front = false, back = false;
-    // The comparison of one coordinate; it wants walls inside the universe.
-    const bool is_wall = bound_.is_wall() && bound_.twice() > 0;
+    const Corner* const ring = corners_.data() + f.begin;
     for (std::uint32_t i = 0; i < f.count; ++i) {
-        const VertexId vertex = corners_[f.begin + i].vertex;
-        const int sign = static_cast<int>(is_wall ? side_of_wall(vertex) : side_of(plane_, vertex));
+        const int sign = static_cast<int>(side(ring[i].vertex));
         signs_[i] = static_cast<std::int8_t>(sign);
         front = front || sign > 0;
         back = back || sign < 0;
     }
     return front ? (back ? Place::both : Place::front) : back ? Place::back : Place::within;
-}
-
-exact::Sign FragmentPool::side_of_wall(VertexId vertex) const {
-    const exact::AxisPlane wall{bound_.axis(), bound_.twice()};
-    return is_lattice(vertex) ? exact::side_of(wall, points_[vertex])
-                              : exact::side_of(wall, constructed(vertex));
 }
 
 void FragmentPool::split(const Fragment& f, Fragment& front, Fragment& back) {

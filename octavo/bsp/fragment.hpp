@@ -141,7 +141,8 @@ class FragmentPool {
     static constexpr VertexId constructed_bit = VertexId{1} << 31;
 
   private:
-    exact::Sign side_of_wall(VertexId vertex) const;
+    template <class Side>
+    Place place(const Fragment& f, const Side& side);
     VertexId construct(PlaneId plane, Bound edge);
     VertexId push(const exact::TriplePoint& point);
 
