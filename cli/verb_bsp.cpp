@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: Apache-2.0#include <fmt/format.h>
 
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
@@ -20,10 +20,36 @@ struct BspArguments {
     int depth = 26;
 };
 
-Result<bsp_octree::BspOctree> load(Session& session, const Context& context, const BspArguments& arguments) {
-    if (kind_of(arguments.input, arguments.format) == ModelKind::bsp_octree) {
+bool holds_a_tree(const BspArguments& arguments) {
+    return kind_of(arguments.input, arguments.format) == ModelKind::bsp_octree;
+}
+
+/// Options of making a tree, which a file that holds one has no use for.
+Status check_use(Session& session, const BspArguments& arguments) {
+    if (!holds_a_tree(arguments)) return Done{};
+    const BspArguments usual;
+    const char* const useless = arguments.planes != usual.planes ? "--planes"
+                                : arguments.stop != usual.stop   ? "--stop"
+                                : arguments.depth != usual.depth ? "--depth"
+                                                                 : nullptr;
+    if (!useless) return Done{};
+    return session.usage_error(
+        fmt::format("{} is for making a tree, and {} holds one already", useless, arguments.input));
+}
+
+/// The tree, and how far rounding to the lattice moved a vertex at most.
+struct Loaded {
+    bsp_octree::BspOctree octree;
+    double largest_displacement = 0;
+};
+
+Result<Loaded> load(Session& session, const Context& context, const BspArguments& arguments) {
+    if (holds_a_tree(arguments)) {
         session.inputs.push_back(arguments.input);
-        return session.timed("read", [&] { return bsp_octree::read_bso(arguments.input, context); });
+        Result<bsp_octree::BspOctree> octree =
+            session.timed("read", [&] { return bsp_octree::read_bso(arguments.input, context); });
+        if (!octree) return std::move(octree).error();
+        return Loaded{std::move(*octree), 0};
     }
     Result<io::ReadMesh> read = read_operand(session, context, arguments.input, arguments.format);
     if (!read) return std::move(read).error();
@@ -38,7 +64,7 @@ Result<bsp_octree::BspOctree> load(Session& session, const Context& context, con
     if (built->octree.is_empty()) session.warn("the solid is empty");
     if (built->report.resolved)
         session.warn("the surface meets itself; the tree is that of where it winds about a point");
-    return std::move(built->octree);
+    return Loaded{std::move(built->octree), built->report.largest_displacement};
 }
 
 Result<ExitCode> make_bsp(Session& session, const BspArguments& arguments) {
@@ -46,14 +72,17 @@ Result<ExitCode> make_bsp(Session& session, const BspArguments& arguments) {
     const Result<std::string> format =
         settle_output(session, {arguments.input}, arguments.output, "", bsp_octree_outputs());
     if (!format) return format.error();
-    Result<bsp_octree::BspOctree> octree = load(session, context, arguments);
-    if (!octree) return std::move(octree).error();
+    if (const Status useful = check_use(session, arguments); !useful) return useful.error();
+    const Result<Loaded> loaded = load(session, context, arguments);
+    if (!loaded) return loaded.error();
     if (!arguments.output.empty()) {
         const Result<WrittenBspOctree> written =
-            write_bsp_octree(session, context, arguments.output, *octree, *format);
+            write_bsp_octree(session, context, arguments.output, loaded->octree, *format);
         if (!written) return written.error();
     }
-    tell(session, *octree, bsp_octree::encode(*octree).size());
+    tell(session, loaded->octree, bsp_octree::encode(loaded->octree).size());
+    session.result["largest_displacement"] = loaded->largest_displacement;
+    session.text += rounding_text(loaded->largest_displacement);
     return ExitCode::ok;
 }
 

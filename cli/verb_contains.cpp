@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <octavo/base/counted.hpp>
+#include <octavo/base/parallel.hpp>
+#include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/octree/linear_octree.hpp>
 #include <octavo/query/inside.hpp>
 #include <octavo/query/stored_inside.hpp>
@@ -57,6 +59,35 @@ Result<Sides> sides_in_octree(Session& session, const Context& context, const Po
     return sides;
 }
 
+query::Side side_of(bsp::Position position) {
+    switch (position) {
+        case bsp::Position::in:
+            return query::Side::inside;
+        case bsp::Position::on:
+            return query::Side::on;
+        case bsp::Position::out:
+            break;
+    }
+    return query::Side::outside;
+}
+
+Result<Sides> sides_in_bsp_octree(Session& session, const Context& context, const PointQueryOptions& options,
+                                  const std::vector<Vec3>& points) {
+    session.inputs.push_back(options.model);
+    const Result<bsp_octree::BspOctree> tree =
+        session.timed("read", [&] { return bsp_octree::read_bso(options.model, context); });
+    if (!tree) return tree.error();
+    Sides sides(points.size(), query::Side::outside);
+    session.timed("query", [&] {
+        constexpr std::size_t points_at_once = 1024;
+        parallel_chunks(context, points.size(), points_at_once, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (is_finite(points[i])) sides[i] = side_of(tree->classify(points[i]));
+        });
+    });
+    return sides;
+}
+
 /// So few answers come sooner from a .bpo file where it lies than decoding it takes.
 constexpr std::size_t few_points = 100;
 
@@ -101,6 +132,8 @@ Result<Answers> answers_of(Session& session, const Context& context, const Point
     const ModelKind kind = kind_of(options.model, options.model_format);
     if (kind == ModelKind::octree)
         return answers_without_rounding(sides_in_octree(session, context, options, points));
+    if (kind == ModelKind::bsp_octree)
+        return answers_without_rounding(sides_in_bsp_octree(session, context, options, points));
     if (kind == ModelKind::bp_octree && options.model != "-" && points.size() <= few_points)
         return answers_without_rounding(sides_from_file(session, options, points));
     return sides_of_surface(session, context, options, points);
@@ -148,8 +181,8 @@ void add_contains(Program& program) {
                      [options](Session& session) { return contains(session, *options); });
     add_point_query_options(
         verb, *options,
-        "A closed mesh, a CSG tree (.csg), a BP-octree (.bpo), or an octree (.oct), whose gray "
-        "cells answer 0",
+        "A closed mesh, a CSG tree (.csg), a BP-octree (.bpo), a BSP-octree (.bso), or an octree "
+        "(.oct), whose gray cells answer 0",
         "the sides (-1 inside, 0 on, 1 outside)");
 }
 

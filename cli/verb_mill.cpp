@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include <octavo/base/counted.hpp>
+#include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/mill.hpp>
+#include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/io/poses.hpp>
 
 #include "bsp_octree_output.hpp"
@@ -40,6 +43,9 @@ void tell(Session& session, const bsp_octree::Milled& milled, const WrittenBspOc
                       {"area", measures.area},
                       {"cutting_steps", report.cutting_steps},
                       {"slowest_step", quantile(report.step_seconds, 1)},
+                      {"build_seconds", report.build_seconds},
+                      {"collections", report.collections},
+                      {"largest_displacement", report.largest_displacement},
                       {"bytes", milled.solid.store().bytes()}};
     std::string what = grouped(written.report.bytes) + " bytes";
     if (written.made) {
@@ -50,8 +56,48 @@ void tell(Session& session, const bsp_octree::Milled& milled, const WrittenBspOc
     }
     session.text = fmt::format("{}: {}, volume {:.10g}, after {}, {:.2f} ms each (median)\n", output, what,
                                measures.volume, counted(report.steps, "step", "steps"), 1e3 * median);
+    session.warn(report.warnings);
     if (milled.solid.is_empty()) session.warn("nothing is left of the workpiece");
     if (report.cutting_steps == 0) session.warn("the tool never meets the workpiece");
+}
+
+/// What comes in a .bso file is milled as it is; anything else is rounded to a lattice first.
+struct Workpiece {
+    std::optional<bsp_octree::BspOctree> octree;
+    mesh::Mesh mesh;
+};
+
+Result<Workpiece> read_workpiece(Session& session, const Context& context, const std::string& path) {
+    if (kind_of(path, "") != ModelKind::bsp_octree) {
+        Result<io::ReadMesh> read = read_operand(session, context, path);
+        if (!read) return std::move(read).error();
+        return Workpiece{std::nullopt, std::move(read->mesh)};
+    }
+    session.inputs.push_back(path);
+    Result<bsp_octree::BspOctree> octree =
+        session.timed("read", [&] { return bsp_octree::read_bso(path, context); });
+    if (!octree) return std::move(octree).error();
+    return Workpiece{std::move(*octree), {}};
+}
+
+Result<bsp_octree::Milled> mill_workpiece(Session& session, const Context& context, Workpiece work,
+                                          const mesh::Mesh& tool, std::span<const Affine> poses) {
+    if (work.octree && bsp_octree::has_room(*work.octree, tool, poses))
+        return session.timed("mill",
+                             [&] { return bsp_octree::mill(*work.octree, tool, poses, {}, context); });
+    if (work.octree) {
+        Result<bsp_octree::ToMesh> made =
+            session.timed("mesh", [&] { return bsp_octree::to_mesh(*work.octree, context); });
+        if (!made) {
+            Error error = std::move(made).error();
+            error.place.operand = 0;
+            return error;
+        }
+        session.warn(
+            "the tool reaches beyond the lattice of the workpiece, which was rounded to a larger one");
+        work.mesh = std::move(made->mesh);
+    }
+    return session.timed("mill", [&] { return bsp_octree::mill(work.mesh, tool, poses, {}, context); });
 }
 
 Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
@@ -60,7 +106,7 @@ Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
         settle_output(session, {arguments.work, arguments.tool, arguments.path}, arguments.output,
                       arguments.format, bsp_octree_outputs());
     if (!format) return format.error();
-    Result<io::ReadMesh> work = read_operand(session, context, arguments.work);
+    Result<Workpiece> work = read_workpiece(session, context, arguments.work);
     if (!work) return std::move(work).error();
     Result<io::ReadMesh> tool = read_operand(session, context, arguments.tool);
     if (!tool) return std::move(tool).error();
@@ -69,9 +115,9 @@ Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
         session.timed("read", [&] { return io::read_poses(arguments.path, context); });
     if (!poses) return std::move(poses).error();
 
-    Result<bsp_octree::Milled> milled =
-        session.timed("mill", [&] { return bsp_octree::mill(work->mesh, tool->mesh, *poses, {}, context); });
-    if (!milled) return std::move(milled).error();
+    const Result<bsp_octree::Milled> milled =
+        mill_workpiece(session, context, std::move(*work), tool->mesh, *poses);
+    if (!milled) return in_its_file(milled.error(), {arguments.work, arguments.tool});
     const Result<WrittenBspOctree> written =
         write_bsp_octree(session, context, arguments.output, milled->solid, *format);
     if (!written) return written.error();

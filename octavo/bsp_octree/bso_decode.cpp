@@ -39,9 +39,12 @@ Result<Header> read_header(BlockReader& reader) {
     if (reader.failed()) return reader.error();
 
     const auto depth = load<std::uint32_t>(&bytes[bso::depth_at]),
+               planes = load<std::uint32_t>(&bytes[bso::leaf_planes_at]),
                stop = load<std::uint32_t>(&bytes[bso::stop_at]);
     if (depth > exact::coordinate_bits)
         return refuse("the depth of the .bso file is not in 0 to 26", bso::depth_at);
+    if (planes < 1 || planes > Options::most_planes)
+        return refuse("the most planes of a leaf are not in 1 to 1000 in the .bso file", bso::leaf_planes_at);
     if (stop > 1) return refuse("the .bso file has a stop rule that is not known", bso::stop_at);
     std::array<std::int64_t, 3> origin;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -51,7 +54,7 @@ Result<Header> read_header(BlockReader& reader) {
     if (!lattice) return refuse(lattice.error().sentence, bso::exponent_at);
     Header header{*lattice, {}};
     header.options.depth = static_cast<int>(depth);
-    header.options.planes = load<std::uint32_t>(&bytes[bso::leaf_planes_at]);
+    header.options.planes = planes;
     header.options.stop = static_cast<StopRule>(stop);
     return header;
 }
@@ -91,13 +94,16 @@ class Decoder {
             std::uint32_t depth;
         };
         const std::size_t begin = store_.nodes.size();
+        bool has_in = false, has_out = false;
         std::vector<Pending> pending{{-1, false, 0}};
         while (!pending.empty() && !bits_.failed()) {
             const Pending at = pending.back();
             pending.pop_back();
             bsp::Child child = bsp::Child::leaf(bsp::Label::out);
             if (bits_.get(1) == 0) {
-                child = bsp::Child::leaf(bits_.get(1) ? bsp::Label::in : bsp::Label::out);
+                const bool is_in = bits_.get(1) != 0;
+                (is_in ? has_in : has_out) = true;
+                child = bsp::Child::leaf(is_in ? bsp::Label::in : bsp::Label::out);
                 if (at.parent < 0) bits_.fail("a BSP tree of the .bso file has no node");
             } else {
                 path_.resize(at.depth);
@@ -111,6 +117,7 @@ class Decoder {
             bsp::Node& parent = store_.nodes[begin + static_cast<std::size_t>(at.parent)];
             (at.is_front ? parent.front : parent.back) = child;
         }
+        if (!has_in || !has_out) bits_.fail("a BSP tree of the .bso file is inside or outside all over");
         if (store_.leaves.size() == NodeRef::most || store_.nodes.size() >= most_nodes) fail_for_size();
         return bits_.failed() ? NodeRef::white() : store_.add_leaf(begin);
     }

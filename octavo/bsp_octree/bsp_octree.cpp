@@ -11,7 +11,7 @@ namespace {
 
 /// `first` ∩ `second`, either of them complemented, and the result too.
 Result<BspOctree> meet(const BspOctree& first, bool complement_first, const BspOctree& second,
-                       bool complement_second, bool complement_result, Edit* edit) {
+                       bool complement_second, bool complement_result, Edit* edit, const Context& context) {
     if (first.lattice() != second.lattice())
         return Error{ErrorCode::bad_input, "the solids are not on one lattice", {}};
     const std::shared_ptr<Store>& store = first.shared_store();
@@ -19,10 +19,10 @@ Result<BspOctree> meet(const BspOctree& first, bool complement_first, const BspO
     if (second.shared_store() != store) other = Copier(second.store(), *store)(other);
     if (edit) *edit = {};
     bsp::FragmentPool pool(store->planes);
-    const Context uninterrupted;
-    Workspace workspace(*store, pool, first.options(), uninterrupted);
+    Workspace workspace(*store, pool, first.options(), context, "set operation");
     const NodeRef root = Meet(workspace, edit)(first.root().complement_if(complement_first),
                                                other.complement_if(complement_second));
+    if (context.cancelled()) return Context::cancelled_error();
     return BspOctree(first.lattice(), first.options(), store, root.complement_if(complement_result));
 }
 
@@ -80,14 +80,14 @@ class PointSearch {
 BspOctree::BspOctree(const exact::Lattice& lattice, const Options& options)
     : BspOctree(lattice, options, std::make_shared<Store>(), NodeRef::white()) {}
 
-Result<BspOctree> BspOctree::intersect(const BspOctree& other, Edit* edit) const {
-    return meet(*this, false, other, false, false, edit);
+Result<BspOctree> BspOctree::intersect(const BspOctree& other, Edit* edit, const Context& context) const {
+    return meet(*this, false, other, false, false, edit, context);
 }
-Result<BspOctree> BspOctree::unite(const BspOctree& other, Edit* edit) const {
-    return meet(*this, true, other, true, true, edit);
+Result<BspOctree> BspOctree::unite(const BspOctree& other, Edit* edit, const Context& context) const {
+    return meet(*this, true, other, true, true, edit, context);
 }
-Result<BspOctree> BspOctree::subtract(const BspOctree& other, Edit* edit) const {
-    return meet(*this, false, other, true, false, edit);
+Result<BspOctree> BspOctree::subtract(const BspOctree& other, Edit* edit, const Context& context) const {
+    return meet(*this, false, other, true, false, edit, context);
 }
 
 bsp::Position BspOctree::classify(Vec3 point) const {

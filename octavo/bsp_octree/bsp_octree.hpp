@@ -65,11 +65,13 @@ class BspOctree {
     /// All that is not in this solid; constant time.
     BspOctree complement() const { return {lattice_, options_, store_, root_.complement()}; }
 
-    /// Set operations. Both solids must be on one lattice, or bad_input comes back. Cost: that of the cells in which
-    /// both have faces, and of copying the other solid's nodes when it is in another store.
-    Result<BspOctree> intersect(const BspOctree& other, Edit* edit = nullptr) const;
-    Result<BspOctree> unite(const BspOctree& other, Edit* edit = nullptr) const;
-    Result<BspOctree> subtract(const BspOctree& other, Edit* edit = nullptr) const;
+    /// Set operations. Cost: that of the cells in which both have faces, and of copying the other solid's nodes when it is
+    /// in another store. Errors: bad_input when the solids are not on one lattice, cancelled.
+    Result<BspOctree> intersect(const BspOctree& other, Edit* edit = nullptr,
+                                const Context& context = {}) const;
+    Result<BspOctree> unite(const BspOctree& other, Edit* edit = nullptr, const Context& context = {}) const;
+    Result<BspOctree> subtract(const BspOctree& other, Edit* edit = nullptr,
+                               const Context& context = {}) const;
 
     /// Where a point of the world lies; exact, for any finite doubles. Outside the universe is where its walls are:
     /// out, unless the solid is a complement.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include <octavo/base/shared_progress.hpp>
 #include <octavo/bsp_octree/build.hpp>
 #include <octavo/bsp_octree/resolve_surface.hpp>
 #include <octavo/bsp_octree/subdivide.hpp>
@@ -86,7 +87,7 @@ Result<Built> build_from(const mesh::LatticeMesh& lattice_mesh, const Options& o
         fragments.push_back(pool.triangle(facet.source, facing));
     }
     const std::vector<classic::Facet> sources = by_source(*facets, lattice_mesh.triangles.size());
-    Workspace workspace(*store, pool, options, context);
+    Workspace workspace(*store, pool, options, context, "octree");
     Subdivider<WindingColors> subdivide(workspace, WindingColors(sources));
     const NodeRef root = subdivide(octree::Cell::root(), fragments, 0);
     if (context.cancelled()) return Context::cancelled_error();
@@ -105,10 +106,7 @@ Result<Built> build(const mesh::Mesh& mesh, const MeshOptions& options, const Co
 
 Result<Built> build(const mesh::Mesh& mesh, const exact::Lattice& lattice, const MeshOptions& options,
                     const Context& context, std::shared_ptr<Store> store) {
-    if (options.octree.depth < 0 || options.octree.depth > exact::coordinate_bits)
-        return Error{ErrorCode::bad_input,
-                     "the depth of a BSP-octree is 0 to 26, not " + std::to_string(options.octree.depth),
-                     {}};
+    if (Status in_range = check(options.octree); !in_range) return std::move(in_range).error();
     Result<mesh::Snapped> snapped = mesh::snap(mesh, lattice);
     if (!snapped) return snapped.error();
     if (!keeps_a_unit_free(snapped->mesh))
@@ -127,8 +125,8 @@ Result<Built> build(const mesh::Mesh& mesh, const exact::Lattice& lattice, const
         resolved = std::move(*result);
     }
     context.report("octree", 0.4);
-    Result<Built> built =
-        build_from(resolved ? *resolved : snapped->mesh, options.octree, context, std::move(store));
+    Result<Built> built = build_from(resolved ? *resolved : snapped->mesh, options.octree,
+                                     part_of(context, "octree", 0.4, 1), std::move(store));
     if (!built) return built;
     built->report.moved_vertices = snapped->report.moved_vertices;
     built->report.largest_displacement = snapped->report.largest_displacement;

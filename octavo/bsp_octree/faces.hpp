@@ -9,14 +9,18 @@
 
 namespace octavo::bsp_octree {
 
-/// Calls `visit(pool, fragments)` for each BSP leaf; both are valid until it returns.
+/// Calls `visit(pool, fragments)` for each BSP leaf, or fewer once the context is cancelled; both are valid until it
+/// returns. Tells the context how far the phase "faces" is.
 template <class Visit>
-void for_each_boundary(const BspOctree& octree, const Visit& visit) {
+void for_each_boundary(const BspOctree& octree, const Context& context, const Visit& visit) {
     const Store& store = octree.store();
     bsp::FragmentPool pool(store.planes);
     bsp::BoundaryExtractor extractor;
     Fragments fragments;
+    CellProgress progress(context, "faces");
     octree.for_each_leaf([&](const octree::Cell& cell, NodeRef leaf) {
+        if (context.cancelled()) return;
+        progress.finish(cell);
         if (!leaf.is_bsp()) return;
         const bsp::FragmentPool::Mark mark = pool.mark();
         fragments.clear();

@@ -37,20 +37,26 @@ NodeRef Meet::operator()(NodeRef first, NodeRef second) {
 }
 
 Meet::Outcome Meet::meet(const octree::Cell& cell, Operand& first, Operand& second) {
-    const bool are_nodes = !first.is_part && !second.is_part;
-    if (first.node.is_white() || second.node.is_black() || (are_nodes && first.node == second.node))
-        return {first.node, true};
-    Outcome outcome;
-    if (second.node.is_white() || (are_nodes && first.node == second.node.complement()))
-        outcome.node = NodeRef::white();
-    else if (first.node.is_black())
-        outcome.node = node_of(second);
+    if (workspace_.cancelled()) return {};
+    std::optional<Outcome> outcome = settle(first, second);
+    if (outcome)
+        workspace_.finish(cell);
     else if (first.node.is_gray() || second.node.is_gray())
         return meet_octants(cell, first, second);
     else
         outcome = meet_leaves(cell, first, second);
-    if (edit_ && !outcome.unchanged) edit_->changed.push_back(cell);
-    return outcome;
+    if (edit_ && !outcome->unchanged) edit_->changed.push_back(cell);
+    return *outcome;
+}
+
+std::optional<Meet::Outcome> Meet::settle(Operand& first, Operand& second) {
+    const bool are_nodes = !first.is_part && !second.is_part;
+    if (first.node.is_white() || second.node.is_black() || (are_nodes && first.node == second.node))
+        return Outcome{first.node, true};
+    if (second.node.is_white() || (are_nodes && first.node == second.node.complement()))
+        return Outcome{NodeRef::white()};
+    if (first.node.is_black()) return Outcome{node_of(second)};
+    return std::nullopt;
 }
 
 Meet::Outcome Meet::meet_octants(const octree::Cell& cell, Operand& first, Operand& second) {
@@ -82,16 +88,26 @@ Meet::Outcome Meet::meet_octants(const octree::Cell& cell, Operand& first, Opera
 
 Meet::Outcome Meet::meet_leaves(const octree::Cell& cell, Operand& first, Operand& second) {
     const FragmentPool::Mark mark = workspace_.pool().mark();
-    const Store& store = workspace_.store();
     load_faces(cell, first), load_faces(cell, second);
+    std::optional<Outcome> outcome = settle(first, second);
+    if (outcome)
+        workspace_.finish(cell);
+    else
+        outcome = meet_faces(cell, first, second);
+    workspace_.pool().release(mark);
+    return *outcome;
+}
+
+Meet::Outcome Meet::meet_faces(const octree::Cell& cell, Operand& first, Operand& second) {
     if (edit_) ++edit_->merged_cells;
+    const Store& store = workspace_.store();
     Fragments faces;
     const bsp::Intersection met = bsp::intersect(workspace_.pool(), first.faces, store.tree(first.node),
                                                  second.faces, store.tree(second.node), clipper_, faces);
     Outcome outcome;
     if (faces.empty()) {
-        // Behind a face of the first there is nothing of the second, so there is a point outside both; and nothing
-        // separates it from any other.
+        // Where the first has a face, it has an outside, which is outside of the result; and nothing separates any two
+        // points.
         outcome.node = NodeRef::white();
     } else if (met.all_of_first && met.none_of_second) {
         outcome = {first.node, true};
@@ -99,9 +115,9 @@ Meet::Outcome Meet::meet_leaves(const octree::Cell& cell, Operand& first, Operan
         outcome.node = node_of(second);
     } else {
         Subdivider<TreeColors> subdivide(workspace_, TreeColors(store, first.node, second.node));
-        outcome.node = subdivide(cell, faces, {});
+        return {subdivide(cell, faces, {})};
     }
-    workspace_.pool().release(mark);
+    workspace_.finish(cell);
     return outcome;
 }
 
@@ -111,6 +127,7 @@ NodeRef Meet::node_of(Operand& operand) {
 
 std::array<Meet::Operand, 8> Meet::octants(const octree::Cell& cell, Operand& operand) {
     std::array<Operand, 8> parts;
+    load_faces(cell, operand);
     if (!operand.node.is_bsp()) {
         Octants nodes;
         if (operand.node.is_gray())
@@ -120,13 +137,11 @@ std::array<Meet::Operand, 8> Meet::octants(const octree::Cell& cell, Operand& op
         for (std::size_t i = 0; i < 8; ++i) parts[i].node = nodes[i];
         return parts;
     }
-    load_faces(cell, operand);
-    std::array<Fragments, 8> faces;
-    workspace_.distribute(cell, operand.faces, faces);
+    const std::array<Fragments, 8>& faces = workspace_.distribute(cell, operand.faces);
     const bsp::Tree tree = workspace_.store().tree(operand.node);
     for (int i = 0; i < 8; ++i) {
         Operand& part = parts[static_cast<std::size_t>(i)];
-        part.faces = std::move(faces[static_cast<std::size_t>(i)]);
+        part.faces = faces[static_cast<std::size_t>(i)];
         if (part.faces.empty())
             part.node =
                 NodeRef::uniform(bsp::label_of_uniform_cell(tree, cell.child(i), workspace_.store().planes));
@@ -137,8 +152,13 @@ std::array<Meet::Operand, 8> Meet::octants(const octree::Cell& cell, Operand& op
 }
 
 void Meet::load_faces(const octree::Cell& cell, Operand& operand) {
-    if (operand.is_part || !operand.faces.empty()) return;
+    if (!operand.node.is_bsp() || operand.is_part || !operand.faces.empty()) return;
     workspace_.extract(cell, operand.node, operand.faces);
+    // A file may hold trees whose planes pass by the cell.
+    const Store& store = workspace_.store();
+    if (operand.faces.empty())
+        operand.node =
+            NodeRef::uniform(bsp::label_of_uniform_cell(store.tree(operand.node), cell, store.planes));
 }
 
 }  // namespace octavo::bsp_octree

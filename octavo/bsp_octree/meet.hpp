@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include <octavo/bsp_octree/bsp_octree.hpp>
 #include <octavo/bsp_octree/subdivide.hpp>
 
@@ -39,10 +41,14 @@ class Meet {
     };
 
     Outcome meet(const octree::Cell& cell, Operand& first, Operand& second);
+    /// What needs no look at faces: a node that is there already.
+    std::optional<Outcome> settle(Operand& first, Operand& second);
     Outcome meet_octants(const octree::Cell& cell, Operand& first, Operand& second);
     Outcome meet_leaves(const octree::Cell& cell, Operand& first, Operand& second);
+    Outcome meet_faces(const octree::Cell& cell, Operand& first, Operand& second);
     NodeRef node_of(Operand& operand);
     std::array<Operand, 8> octants(const octree::Cell& cell, Operand& operand);
+    /// Of a leaf, unless they are there; without any it is uniform.
     void load_faces(const octree::Cell& cell, Operand& operand);
 
     Workspace& workspace_;

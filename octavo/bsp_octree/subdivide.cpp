@@ -44,18 +44,21 @@ void cut(FragmentPool& pool, std::span<const Fragment> fragments, Fragments& bac
 
 }  // namespace
 
-void Workspace::distribute(const octree::Cell& cell, std::span<const Fragment> fragments,
-                           std::array<Fragments, 8>& octants) {
+std::array<Fragments, 8>& Workspace::distribute(const octree::Cell& cell,
+                                                std::span<const Fragment> fragments) {
     const exact::Point middle = cell.centre();
     const auto wall = [&](int axis) { return Bound::wall(axis, 2 * middle[axis] - 1); };
-    std::array<Fragments, 2> by_x;
-    std::array<Fragments, 4> by_xy;
+    std::array<Fragments, 8>& octants = octants_[static_cast<std::size_t>(cell.level)];
+    for (Fragments& list : by_x_) list.clear();
+    for (Fragments& list : by_xy_) list.clear();
+    for (Fragments& list : octants) list.clear();
     pool_.begin_cut(wall(0));
-    cut(pool_, fragments, by_x[0], by_x[1]);
+    cut(pool_, fragments, by_x_[0], by_x_[1]);
     pool_.begin_cut(wall(1));
-    for (std::size_t x = 0; x < 2; ++x) cut(pool_, by_x[x], by_xy[x], by_xy[x | 2]);
+    for (std::size_t x = 0; x < 2; ++x) cut(pool_, by_x_[x], by_xy_[x], by_xy_[x | 2]);
     pool_.begin_cut(wall(2));
-    for (std::size_t xy = 0; xy < 4; ++xy) cut(pool_, by_xy[xy], octants[xy], octants[xy | 4]);
+    for (std::size_t xy = 0; xy < 4; ++xy) cut(pool_, by_xy_[xy], octants[xy], octants[xy | 4]);
+    return octants;
 }
 
 std::size_t Workspace::count_planes(std::span<const Fragment> fragments, std::size_t most) {
@@ -143,9 +146,10 @@ NodeRef Workspace::make_gray(const octree::Cell& cell, const Octants& octants) {
             for (int i = 0; i < 8; ++i)
                 if (octants[static_cast<std::size_t>(i)].is_bsp())
                     extract(cell.child(i), octants[static_cast<std::size_t>(i)], faces);
-            const NodeRef leaf = make_leaf(faces);
+            // Of leaves from a file whose planes pass by their cells there are none.
+            const NodeRef node = faces.empty() ? store_.add_gray(octants) : make_leaf(faces);
             pool_.release(mark);
-            return leaf;
+            return node;
         }
     }
     return store_.add_gray(octants);

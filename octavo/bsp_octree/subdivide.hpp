@@ -10,6 +10,7 @@
 #include <octavo/bsp/boundary.hpp>
 #include <octavo/bsp/build.hpp>
 #include <octavo/bsp/fragment.hpp>
+#include <octavo/bsp_octree/cell_progress.hpp>
 #include <octavo/bsp_octree/options.hpp>
 #include <octavo/bsp_octree/store.hpp>
 #include <octavo/octree/cell.hpp>
@@ -27,19 +28,29 @@ using Fragments = std::vector<bsp::Fragment>;
 /// The memory of one operation: pools, lists by level, builders.
 class Workspace {
   public:
-    Workspace(Store& store, bsp::FragmentPool& pool, const Options& options, const Context& context)
-        : store_(store), pool_(pool), options_(options), context_(context), builder_(options.tree) {}
+    /// Tells the context how far `phase` is. `options` must be in range.
+    Workspace(Store& store, bsp::FragmentPool& pool, const Options& options, const Context& context,
+              std::string_view phase)
+        : store_(store),
+          pool_(pool),
+          options_(options),
+          context_(context),
+          progress_(context, phase),
+          builder_(options.tree) {
+        OCTAVO_CHECK(check(options).has_value(), "options of a BSP-octree out of range");
+    }
 
     /// Once true, nodes are made of nothing, and fast; who started the work throws them away.
     bool cancelled() const { return context_.cancelled(); }
+    /// Nothing of the cell is left to do.
+    void finish(const octree::Cell& cell) { progress_.finish(cell); }
 
     Store& store() { return store_; }
     bsp::FragmentPool& pool() { return pool_; }
     const Options& options() const { return options_; }
 
-    /// Cuts fragments of a cell to its octants.
-    void distribute(const octree::Cell& cell, std::span<const bsp::Fragment> fragments,
-                    std::array<Fragments, 8>& octants);
+    /// Cuts fragments of a cell to its octants. What comes back stays until the next cell of this level.
+    std::array<Fragments, 8>& distribute(const octree::Cell& cell, std::span<const bsp::Fragment> fragments);
 
     /// May these faces be the leaf of this cell?
     bool is_simple(const octree::Cell& cell, std::span<const bsp::Fragment> fragments);
@@ -63,9 +74,14 @@ class Workspace {
     bsp::FragmentPool& pool_;
     Options options_;
     const Context& context_;
+    CellProgress progress_;
     bsp::TreeBuilder builder_;
     bsp::BoundaryExtractor extractor_;
     std::vector<bsp::PlaneId> planes_;
+    // Lists are kept, since making them anew for every cell took a tenth of the time.
+    std::array<Fragments, 2> by_x_;
+    std::array<Fragments, 4> by_xy_;
+    std::array<std::array<Fragments, 8>, exact::coordinate_bits> octants_;  ///< by level of the cell
 };
 
 /// Subdivides until all leaves are simple. `Colors` knows the labels of cells without faces:
@@ -82,14 +98,17 @@ class Subdivider {
     NodeRef operator()(const octree::Cell& cell, std::span<const bsp::Fragment> fragments,
                        const State& state) {
         if (workspace_.cancelled()) return NodeRef::white();
-        if (fragments.empty()) return NodeRef::uniform(colors_.label(cell, state));
-        if (workspace_.is_simple(cell, fragments)) return workspace_.make_leaf(fragments);
+        if (fragments.empty() || workspace_.is_simple(cell, fragments)) {
+            workspace_.finish(cell);
+            return fragments.empty() ? NodeRef::uniform(colors_.label(cell, state))
+                                     : workspace_.make_leaf(fragments);
+        }
 
         const bsp::FragmentPool::Mark mark = workspace_.pool().mark();
-        std::array<Fragments, 8> octants;
-        workspace_.distribute(cell, fragments, octants);
+        const std::array<Fragments, 8>& octants = workspace_.distribute(cell, fragments);
         NodeRef result;
         if (workspace_.is_futile(fragments, octants)) {
+            workspace_.finish(cell);
             result = workspace_.make_leaf(fragments);
         } else {
             const std::array<State, 8> states = colors_.octants(cell, fragments, state);
@@ -97,7 +116,6 @@ class Subdivider {
             for (int i = 0; i < 8; ++i) {
                 const auto octant = static_cast<std::size_t>(i);
                 children[octant] = (*this)(cell.child(i), octants[octant], states[octant]);
-                Fragments().swap(octants[octant]);
             }
             result = workspace_.make_gray(cell, children);
         }

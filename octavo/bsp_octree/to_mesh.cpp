@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <octavo/base/shared_progress.hpp>
 #include <octavo/boolean/assemble.hpp>
 #include <octavo/boolean/point_table.hpp>
 #include <octavo/boolean/rounding_faults.hpp>
@@ -37,10 +38,11 @@ Soup soup_of(const BspOctree& octree) {
 }
 
 /// The edges of all fragments, their ends named by value.
-std::vector<BoundedSegment> edges_of(const BspOctree& octree, PointTable& points, MeshReport& report) {
+std::vector<BoundedSegment> edges_of(const BspOctree& octree, PointTable& points, MeshReport& report,
+                                     const Context& context) {
     std::vector<BoundedSegment> edges;
     std::vector<PointId> ids;
-    for_each_boundary(octree, [&](const bsp::FragmentPool& pool, const Fragments& fragments) {
+    for_each_boundary(octree, context, [&](const bsp::FragmentPool& pool, const Fragments& fragments) {
         for (const bsp::Fragment& fragment : fragments) {
             const std::span<const bsp::Corner> ring = pool.corners(fragment);
             ids.clear();
@@ -65,8 +67,8 @@ Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context) {
     ToMesh result;
     const Soup soup = soup_of(octree);
     PointTable points(soup);
-    context.report("faces", 0);
-    const std::vector<BoundedSegment> edges = edges_of(octree, points, result.report);
+    const std::vector<BoundedSegment> edges =
+        edges_of(octree, points, result.report, part_of(context, "faces", 0, 0.4));
     if (context.cancelled()) return Context::cancelled_error();
     context.report("borders", 0.4);
     const bsp::FragmentPool planes(octree.store().planes);
@@ -96,7 +98,7 @@ mesh::Measures measure(const BspOctree& octree) {
     const auto& origin = octree.lattice().origin();
     const double unit = octree.lattice().unit();
     mesh::Mesh soup;
-    for_each_boundary(octree, [&](const bsp::FragmentPool& pool, const Fragments& fragments) {
+    for_each_boundary(octree, {}, [&](const bsp::FragmentPool& pool, const Fragments& fragments) {
         for (const bsp::Fragment& fragment : fragments) {
             const auto first = static_cast<std::uint32_t>(soup.vertices.size());
             for (const bsp::Corner& corner : pool.corners(fragment)) {

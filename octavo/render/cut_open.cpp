@@ -56,7 +56,7 @@ Result<CutBspOctree> cut_open(const bsp_octree::BspOctree& solid, const Box3& re
     const Result<bsp_octree::Built> built =
         bsp_octree::build(*tool, lattice, {}, context, solid.shared_store());
     if (!built) return built.error();
-    Result<bsp_octree::BspOctree> cut = solid.subtract(built->octree);
+    Result<bsp_octree::BspOctree> cut = solid.subtract(built->octree, nullptr, context);
     if (!cut) return std::move(cut).error();
 
     CutBspOctree result{std::move(*cut), {}};

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include <octavo/bsp/boundary.hpp>
+#include <octavo/bsp_octree/cell_progress.hpp>
 #include <octavo/render/patch_maker.hpp>
 #include <octavo/render/tree_order.hpp>
 
@@ -16,22 +17,24 @@ class BspOctreeOrder {
   public:
     BspOctreeOrder(const bsp_octree::BspOctree& solid, const BspOctreePaint& paint, PatchMaker& maker,
                    const Context& context)
-        : store_(solid.store()), paint_(paint), pool_(store_.planes), maker_(maker), context_(context) {}
+        : store_(solid.store()),
+          paint_(paint),
+          pool_(store_.planes),
+          maker_(maker),
+          context_(context),
+          progress_(context, "order") {}
 
-    void visit(const octree::Cell& cell, NodeRef node, double share) {
+    void visit(const octree::Cell& cell, NodeRef node) {
         if (context_.cancelled()) return;
         if (node.is_gray()) {
             const bsp_octree::Octants octants = store_.octants(node);
             const int nearest = maker_.eye().nearest_octant(cell);
             for (int k = 0; k < 8; ++k)
-                visit(cell.child(nearest ^ k), octants[static_cast<std::size_t>(nearest ^ k)], share / 8);
+                visit(cell.child(nearest ^ k), octants[static_cast<std::size_t>(nearest ^ k)]);
             return;
         }
         if (node.is_bsp()) add_leaf(cell, node);
-        done_ += share;
-        if (done_ < reported_ + 0.01) return;
-        reported_ = done_;
-        context_.report("order", done_);
+        progress_.finish(cell);
     }
 
   private:
@@ -70,10 +73,10 @@ class BspOctreeOrder {
     bsp::BoundaryExtractor extractor_;
     PatchMaker& maker_;
     const Context& context_;
+    bsp_octree::CellProgress progress_;
     TreeOrder order_;
     std::vector<bsp::Fragment> faces_, sorted_;
     std::vector<bsp::PlaneId> planes_;
-    double done_ = 0, reported_ = 0;
 };
 
 }  // namespace
@@ -81,7 +84,7 @@ class BspOctreeOrder {
 Result<Patches> patches_of(const bsp_octree::BspOctree& solid, const Camera& camera,
                            const BspOctreePaint& paint, const Context& context) {
     PatchMaker maker(camera, solid.lattice());
-    BspOctreeOrder(solid, paint, maker, context).visit(octree::Cell::root(), solid.root(), 1);
+    BspOctreeOrder(solid, paint, maker, context).visit(octree::Cell::root(), solid.root());
     if (context.cancelled()) return Context::cancelled_error();
     return std::move(maker).take();
 }

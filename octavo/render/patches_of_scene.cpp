@@ -54,7 +54,7 @@ class SceneOrder {
         : scene_(scene),
           facets_(facets),
           pool_(store_.planes, facets.points, facets.triangles),
-          workspace_(store_, pool_, {}, context),
+          workspace_(store_, pool_, {}, context, "order"),
           maker_(maker),
           context_(context) {}
 
@@ -66,30 +66,23 @@ class SceneOrder {
                 store_.planes.add(facets_.points[t[0]], facets_.points[t[1]], facets_.points[t[2]]);
             fragments.push_back(pool_.triangle(i, facing));
         }
-        visit(octree::Cell::root(), fragments, 1);
+        visit(octree::Cell::root(), fragments);
     }
 
   private:
-    void visit(const octree::Cell& cell, std::span<const bsp::Fragment> fragments, double share) {
+    void visit(const octree::Cell& cell, std::span<const bsp::Fragment> fragments) {
         if (context_.cancelled()) return;
-        if (fragments.empty()) return advance(share);
+        if (fragments.empty()) return workspace_.finish(cell);
         const bsp::FragmentPool::Mark mark = pool_.mark();
-        std::array<Fragments, 8> octants;
-        bool is_leaf = workspace_.is_simple(cell, fragments);
-        if (!is_leaf) {
-            workspace_.distribute(cell, fragments, octants);
-            is_leaf = workspace_.is_futile(fragments, octants);
-        }
-        if (is_leaf) {
+        const std::array<Fragments, 8>* octants = nullptr;
+        if (!workspace_.is_simple(cell, fragments)) octants = &workspace_.distribute(cell, fragments);
+        if (!octants || workspace_.is_futile(fragments, *octants)) {
             add_leaf(fragments);
-            advance(share);
+            workspace_.finish(cell);
         } else {
             const int nearest = maker_.eye().nearest_octant(cell);
-            for (int k = 0; k < 8; ++k) {
-                Fragments& inside = octants[static_cast<std::size_t>(nearest ^ k)];
-                visit(cell.child(nearest ^ k), inside, share / 8);
-                Fragments().swap(inside);
-            }
+            for (int k = 0; k < 8; ++k)
+                visit(cell.child(nearest ^ k), (*octants)[static_cast<std::size_t>(nearest ^ k)]);
         }
         pool_.release(mark);
     }
@@ -105,13 +98,6 @@ class SceneOrder {
         store_.nodes.clear(), store_.leaves.clear();
     }
 
-    void advance(double share) {
-        done_ += share;
-        if (done_ < reported_ + 0.01) return;
-        reported_ = done_;
-        context_.report("order", done_);
-    }
-
     const Scene& scene_;
     const LatticeFacets& facets_;
     bsp_octree::Store store_;
@@ -121,7 +107,6 @@ class SceneOrder {
     const Context& context_;
     TreeOrder order_;
     Fragments sorted_;
-    double done_ = 0, reported_ = 0;
 };
 
 }  // namespace

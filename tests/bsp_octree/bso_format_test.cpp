@@ -154,6 +154,19 @@ TEST(BsoFormat, RefusesEveryTruncation) {
     EXPECT_EQ(decode(longer).error().place.byte, bytes.size());
 }
 
+TEST(BsoFormat, RefusesTreesThatSeparateNothing) {
+    for (const bsp::Label label : {bsp::Label::out, bsp::Label::in}) {
+        const auto store = std::make_shared<Store>();
+        const bsp::PlaneId plane = store->planes.add({1, 1, 99}, {9, 1, 99}, {1, 9, 99}).plane();
+        store->nodes.push_back({plane, bsp::Child::leaf(label), bsp::Child::leaf(label)});
+        const NodeRef root = store->add_leaf(0);
+        const Result<BspOctree> read = decode(encode(BspOctree(tests::small_lattice(), {}, store, root)));
+        ASSERT_FALSE(read);
+        EXPECT_EQ(read.error().code, ErrorCode::bad_input);
+        EXPECT_NE(read.error().sentence.find("all over"), std::string::npos) << read.error().sentence;
+    }
+}
+
 TEST(BsoFormat, RefusesOtherVersions) {
     Bytes bytes = encode(tests::octree_of(mesh::cube()));
     bytes[8] = 1;
@@ -161,6 +174,26 @@ TEST(BsoFormat, RefusesOtherVersions) {
     ASSERT_FALSE(old);
     EXPECT_EQ(old.error().code, ErrorCode::unsupported);
     EXPECT_EQ(old.error().place.byte, 8U);
+}
+
+TEST(BsoFormat, RefusesOptionsThatNoTreeCanHave) {
+    // With no plane in a leaf, the first set operation would subdivide to the last level.
+    const tests::BsoParts truth = tests::bso_parts(encode(tests::octree_of(mesh::cube())));
+    const struct {
+        std::size_t at;
+        std::uint8_t value;
+        bool is_wrong;
+    } cases[] = {{44, 0, true},   {44, 1, false}, {45, 4, true},
+                 {47, 255, true}, {40, 27, true}, {48, 2, true}};
+    for (const auto& [at, value, is_wrong] : cases) {
+        tests::BsoParts lie = truth;
+        lie.header[at] = value;
+        const Result<BspOctree> read = decode(tests::bso_file(lie));
+        ASSERT_EQ(!read, is_wrong) << at << ' ' << int{value};
+        if (is_wrong) {
+            EXPECT_EQ(read.error().place.byte, at / 4 * 4) << read.error().describe();
+        }
+    }
 }
 
 TEST(BsoFormat, NoticesEveryFlippedBit) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
 #include <random>
 
 #include <octavo/bsp_octree/borders.hpp>
@@ -158,6 +160,47 @@ TEST(Build, RefusesWhatIsNoSolid) {
     EXPECT_EQ(build(wild, trusting).error().code, ErrorCode::bad_input);
     // A lattice in which there is no room left around the mesh.
     EXPECT_EQ(build(moved_to_border(), tests::small_lattice(20)).error().code, ErrorCode::bad_input);
+}
+
+TEST(Build, RefusesOptionsOutOfRange) {
+    // No leaf without a plane: every face would be subdivided to the last level.
+    const auto options = [](std::uint32_t planes, int depth) {
+        MeshOptions of = fine(planes);
+        of.octree.depth = depth;
+        return of;
+    };
+    for (const MeshOptions& wrong : {options(0, 26), options(1001, 26), options(16, -1), options(16, 27)}) {
+        const Result<Built> built = build(mesh::cube(), wrong);
+        ASSERT_FALSE(built);
+        EXPECT_EQ(built.error().code, ErrorCode::bad_input);
+    }
+    for (const MeshOptions& right : {options(1, 26), options(1000, 0)})
+        EXPECT_TRUE(build(mesh::cube(), right));
+}
+
+TEST(Build, TellsHowFarItIsAndStopsWhenAskedTo) {
+    const mesh::Mesh ball = mesh::displaced_sphere(16);
+    std::atomic<bool> cancel{false};
+    std::vector<double> done;
+    Context context;
+    context.cancel = &cancel;
+    context.on_progress = [&](std::string_view phase, double at) {
+        if (phase == "octree") done.push_back(at);
+    };
+    const Result<Built> built = build(ball, {}, context);
+    ASSERT_TRUE(built);
+    ASSERT_GT(done.size(), 20U);
+    EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+    EXPECT_NEAR(done.back(), 1, 0.02);
+    for (const std::string_view stop_in : {"octree", "faces"}) {
+        cancel = false;
+        context.on_progress = [&](std::string_view phase, double at) {
+            cancel = phase == stop_in && at > 0.1;
+        };
+        const ErrorCode code = stop_in == "octree" ? build(ball, {}, context).error().code
+                                                   : to_mesh(built->octree, context).error().code;
+        EXPECT_EQ(code, ErrorCode::cancelled) << stop_in;
+    }
 }
 
 TEST(Build, OfNothingIsEmpty) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
 #include <random>
 
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/mesh/shapes.hpp>
 
+#include "bsp_octree/fingerprint.hpp"
 #include "bsp_octree/solid_cases.hpp"
 #include "effort.hpp"
 
@@ -34,6 +37,12 @@ Volumes volumes_of(const Convex& first, const Convex& second) {
     return {tests::exact_volume(first.sides), tests::exact_volume(second.sides), tests::exact_volume(sides)};
 }
 
+/// Nothing is rounded on either side: in both engines it is the same solid.
+void expect_same_in_both(const BspOctree& ours, std::span<const mesh::Mesh> operands,
+                         const boolean::Program& program, const std::string& what) {
+    EXPECT_TRUE(tests::fingerprint_of(ours) == tests::fingerprint_of(operands, program)) << what;
+}
+
 /// As `expect_solid`; and the mesh, whose vertices are rounded to 2^-40, has the volume that this leaves it.
 void expect_volume(const BspOctree& octree, const tests::Rational& volume, const std::string& what) {
     const auto expected = static_cast<double>(volume);
@@ -55,6 +64,11 @@ TEST_P(RandomConvexBodies, GiveTheVolumesThatRationalClippingGives) {
         expect_volume(*first.intersect(second), volume.both, what + " intersection");
         expect_volume(*first.unite(second), volume.first + volume.second - volume.both, what + " union");
         expect_volume(*first.subtract(second), volume.first - volume.both, what + " difference");
+        const std::array<mesh::Mesh, 2> operands{a.mesh, b.mesh};
+        using boolean::Program;
+        expect_same_in_both(*first.intersect(second), operands, Program::intersection(2), what);
+        expect_same_in_both(*first.unite(second), operands, Program::union_of(2), what);
+        expect_same_in_both(*first.subtract(second), operands, Program::difference(2), what);
     }
 }
 
@@ -108,6 +122,10 @@ TEST(SetOperations, AgreeWithBooleansOfMeshesOnSolidsOfManyFacets) {
             check(*first.unite(second), boolean::unite(operands));
             check(*first.intersect(second), boolean::intersect(operands));
             check(*first.subtract(second), boolean::subtract(operands));
+            using boolean::Program;
+            expect_same_in_both(*first.unite(second), operands, Program::union_of(2), what);
+            expect_same_in_both(*first.intersect(second), operands, Program::intersection(2), what);
+            expect_same_in_both(*first.subtract(second), operands, Program::difference(2), what);
         }
 }
 
@@ -142,6 +160,91 @@ TEST(SetOperations, CoplanarFacesBecomeOneAgain) {
     // Two boxes side by side are one box: six faces of two triangles.
     const BspOctree a = octree_of(cube(0, 0, 0)), b = octree_of(cube(1, 0, 0));
     EXPECT_EQ(to_mesh(*a.unite(b))->mesh.triangles.size(), 12U);
+}
+
+TEST(SetOperations, ChainsOfManyOperandsGiveWhatOnePassGives) {
+    // Bodies that touch and coincide all the time, one after the other here and all at once in boolean/.
+    for (int run = 0; run < 20 * tests::effort() && !HasFailure(); ++run) {
+        std::mt19937 random(static_cast<unsigned>(run));
+        std::vector<mesh::Mesh> operands{tests::box({0, 0, 0}, {6, 6, 6}).mesh};
+        BspOctree rest = octree_of(operands[0], fine(run % 2 ? 1 : 16));
+        BspOctree all = rest;
+        for (int i = 0; i < 20; ++i) {
+            operands.push_back(moved(tests::random_convex(random, 4).mesh,
+                                     {static_cast<double>(random() % 6), static_cast<double>(random() % 6),
+                                      static_cast<double>(random() % 6)}));
+            const BspOctree next = octree_of(operands.back(), fine(run % 2 ? 1 : 16));
+            rest = *rest.subtract(next);
+            all = *all.unite(next);
+        }
+        const auto count = static_cast<std::uint32_t>(operands.size());
+        const std::string what = "run " + std::to_string(run);
+        expect_same_in_both(rest, operands, boolean::Program::difference(count), what + ", difference");
+        expect_same_in_both(all, operands, boolean::Program::union_of(count), what + ", union");
+    }
+}
+
+TEST(SetOperations, StopWhenAskedTo) {
+    const BspOctree a = octree_of(mesh::icosphere(20, 24), fine(16), tests::small_lattice(12)),
+                    b = octree_of(mesh::torus(18, 6, 40, 20), fine(16), tests::small_lattice(12));
+    std::atomic<bool> cancel{false};
+    std::vector<double> done;
+    Context context;
+    context.cancel = &cancel;
+    context.on_progress = [&](std::string_view, double at) { done.push_back(at); };
+    ASSERT_TRUE(a.subtract(b, nullptr, context));
+    ASSERT_GT(done.size(), 20U);
+    EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+    EXPECT_NEAR(done.back(), 1, 0.02);
+    context.on_progress = [&](std::string_view, double at) { cancel = at > 0.5; };
+    const Result<BspOctree> stopped = a.subtract(b, nullptr, context);
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
+    cancel = false;
+    expect_same(*a.subtract(b), *a.subtract(b, nullptr, {}), "what was given up leaves nothing behind");
+}
+
+/// A cube in octant 0 of the universe. The rest has `label`, and octant 7 is a leaf for it: its tree's plane passes by the
+/// cell. No operation makes such trees; a file may hold them.
+BspOctree with_needless_tree(bsp::Label label) {
+    const BspOctree base = octree_of(cube(-50, -50, -50, 2));
+    const std::shared_ptr<Store> store = base.shared_store();
+    const std::size_t begin = store->nodes.size();
+    constexpr std::int32_t below = exact::universe_side / 2 - 9;
+    const bsp::PlaneId plane = store->planes.add({1, 1, below}, {9, 1, below}, {1, 9, below}).plane();
+    store->nodes.push_back({plane, bsp::Child::leaf(label), bsp::Child::leaf(bsp::opposite(label))});
+    const NodeRef needless = store->add_leaf(begin);
+    Octants octants;
+    octants.fill(NodeRef::uniform(label));
+    octants[0] = base.root().complement_if(label == bsp::Label::in);
+    octants[7] = needless;
+    return {base.lattice(), base.options(), store, store->add_gray(octants)};
+}
+
+TEST(SetOperations, TakeTreesWithoutFaces) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> at(-70, 70);
+    const auto expect_same_points = [&](const BspOctree& first, const BspOctree& second, const char* what) {
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 point{at(random), at(random), at(random)};
+            ASSERT_EQ(first.classify(point), second.classify(point)) << what;
+        }
+    };
+    for (const bsp::Label label : {bsp::Label::out, bsp::Label::in}) {
+        const BspOctree needless = with_needless_tree(label), other = with_needless_tree(label);
+        const BspOctree plain = octree_of(cube(-50, -50, -50, 2));
+        const BspOctree lean = label == bsp::Label::out ? plain : plain.complement();
+        expect_same_points(needless, lean, "as it is");
+        expect_same_points(*needless.intersect(other), lean, "the intersection of two");
+        expect_same_points(*needless.unite(other), lean, "the union of two");
+        for (const mesh::Mesh& mesh :
+             {cube(-60, -60, -60, 120), cube(20, 20, 20, 10), cube(-51, -51, -51, 4)}) {
+            const BspOctree tool = octree_of(mesh);
+            expect_same_points(*needless.subtract(tool), *lean.subtract(tool), "less a tool");
+            expect_same_points(*needless.unite(tool), *lean.unite(tool), "with a tool");
+            expect_same_points(*tool.subtract(needless), *tool.subtract(lean), "taken from a tool");
+        }
+    }
 }
 
 TEST(SetOperations, RefuseSolidsOnDifferentLattices) {

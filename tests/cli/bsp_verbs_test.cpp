@@ -44,6 +44,89 @@ TEST_F(BspVerbs, MillTakesTheToolAwayAtEveryPose) {
     EXPECT_EQ(octavo("check part.ply").exit_code, 0);
 }
 
+TEST_F(BspVerbs, MillTakesTreesAsTheyAre) {
+    ASSERT_EQ(octavo("shape sphere --detail 12 -o ball.ply").exit_code, 0);
+    ASSERT_EQ(octavo("shape sphere --detail 3 -o tool.ply").exit_code, 0);
+    ASSERT_EQ(octavo("bsp ball.ply -o ball.bso").exit_code, 0);
+    write("first.csv", "0.3,0.4,0.2\n");
+    write("second.csv", "-0.3,0.1,0.4\n");
+    write("both.csv", "0.3,0.4,0.2\n-0.3,0.1,0.4\n");
+    const auto mill = [&](const std::string& files) {
+        return octavo("mill " + files + " --tool tool.ply --json");
+    };
+    const Ran first = mill("ball.bso --path first.csv -o a.bso"),
+              second = mill("a.bso --path second.csv -o b.bso"),
+              both = mill("ball.bso --path both.csv -o c.bso");
+    for (const Ran& ran : {first, second, both}) ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(second.json()["result"]["largest_displacement"], 0) << "nothing was rounded between sessions";
+    EXPECT_NEAR(second.json()["result"]["volume"], both.json()["result"]["volume"].get<double>(), 1e-13);
+}
+
+TEST_F(BspVerbs, ContainsAsksTheTreeAndNotAMeshOfIt) {
+    // An octahedron loses a slanted corner. Cuts end where a mesh has to round; the plane 35 x + 21 y + 15 z = 105 of a face
+    // stays what it is, and so do points in it.
+    write("work.off",
+          "OFF\n6 8 0\n3 0 0\n-3 0 0\n0 5 0\n0 -5 0\n0 0 7\n0 0 -7\n3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 "
+          "0 5\n"
+          "3 1 2 5\n3 3 1 5\n3 0 3 5\n");
+    write("tool.off", "OFF\n4 4 0\n2.1 0.25 0\n6 0 7\n6 5 -7\n6 -5 -7\n3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n");
+    write("poses.csv", "0,0,0\n");
+    const Ran milled = octavo("mill work.off --tool tool.off --path poses.csv -o part.bso --json");
+    ASSERT_EQ(milled.exit_code, 0) << milled.err;
+    ASSERT_EQ(milled.json()["result"]["cutting_steps"], 1);
+    std::string points;
+    int count = 0;
+    for (int i = 1; i < 16; ++i)
+        for (int k = 1; i + k < 32; ++k, ++count)
+            points += std::to_string(3 * i / 32.0) + "," + std::to_string(5 * k / 32.0) + "," +
+                      std::to_string(7 * (32 - i - k) / 32.0) + "\n";
+    write("points.csv", points + "nan,0,0\n0,0,0\n9,9,9\n");
+    const Ran asked = octavo("contains part.bso points.csv --json");
+    ASSERT_EQ(asked.exit_code, 0) << asked.err;
+    EXPECT_EQ(asked.json()["result"]["on"], count);
+    EXPECT_EQ(asked.json()["result"]["inside"], 1);
+    EXPECT_EQ(asked.json()["result"]["outside"], 2);
+    EXPECT_EQ(asked.json()["result"]["largest_displacement"], 0);
+}
+
+TEST_F(BspVerbs, MillIsNotDisturbedByPosesFarAway) {
+    ASSERT_EQ(octavo("shape cube -o work.ply").exit_code, 0);
+    ASSERT_EQ(octavo("shape cube -o tool.ply").exit_code, 0);
+    write("poses.csv", "0.5,0.5,0.5\n1e15,0,0\n0,-1e300,0\n");
+    const Ran milled = octavo("mill work.ply --tool tool.ply --path poses.csv -o part.ply --json");
+    ASSERT_EQ(milled.exit_code, 0) << milled.err;
+    EXPECT_EQ(milled.json()["result"]["steps"], 3);
+    EXPECT_NEAR(milled.json()["result"]["volume"], 0.875, 1e-9);
+}
+
+TEST_F(BspVerbs, MillNamesTheFileThatIsNoSolid) {
+    ASSERT_EQ(octavo("shape cube -o cube.ply").exit_code, 0);
+    write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    write("poses.csv", "0.5,0.5,0.5\n");
+    for (const char* files : {"cube.ply --tool open.off", "open.off --tool cube.ply"}) {
+        const Ran ran = octavo(std::string("mill ") + files + " --path poses.csv -o part.ply");
+        EXPECT_EQ(ran.exit_code, 3);
+        EXPECT_NE(ran.err.find("open.off: "), std::string::npos) << ran.err;
+    }
+    const Ran overflowing = [&] {
+        write("poses.csv", "0,0,0\n1e308,1e308,0,1e308,0,1,0,0,0,0,1,0\n");
+        return octavo("mill cube.ply --tool cube.ply --path poses.csv -o part.ply");
+    }();
+    EXPECT_EQ(overflowing.exit_code, 3);
+    EXPECT_NE(overflowing.err.find("pose 1"), std::string::npos) << overflowing.err;
+    EXPECT_EQ(read("part.ply"), "");
+}
+
+TEST_F(BspVerbs, OptionsOfMakingTreesAreForWhatIsNone) {
+    ASSERT_EQ(octavo("shape cube -o cube.ply").exit_code, 0);
+    ASSERT_EQ(octavo("bsp cube.ply --planes 1 --depth 9 --stop common-point -o cube.bso").exit_code, 0);
+    for (const char* option : {"--planes 1", "--depth 9", "--stop common-point"}) {
+        const Ran ran = octavo(std::string("bsp cube.bso -o other.bso ") + option);
+        EXPECT_EQ(ran.exit_code, 2);
+        EXPECT_NE(ran.err.find("holds one already"), std::string::npos) << ran.err;
+    }
+}
+
 TEST_F(BspVerbs, GoWhereverSolidsDo) {
     // A boundary of TetGen with a pierced facet, milled to a .bso file, cut and drawn from there.
     write("block.poly",

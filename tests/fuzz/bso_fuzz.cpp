@@ -2,13 +2,16 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <octavo/base/bytes.hpp>
 #include <octavo/base/check.hpp>
 #include <octavo/base/checksum.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
+#include <octavo/bsp_octree/build.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
+#include <octavo/mesh/shapes.hpp>
 
 // Any bytes are refused with a sentence or are a solid that can be asked, combined, meshed or refused as a lie, and
 // written to bytes that give themselves again. They are tried as they are and with the checksum put right, which random
@@ -28,8 +31,19 @@ void use(const bsp_octree::BspOctree& solid) {
         for (const mesh::Triangle& t : made->mesh.triangles)
             for (const mesh::VertexIndex corner : t)
                 OCTAVO_CHECK(corner < made->mesh.vertices.size(), "corners are vertices");
-    const Result<bsp_octree::BspOctree> nothing = solid.intersect(solid.complement());
-    OCTAVO_CHECK(nothing || !nothing.error().sentence.empty(), "an error has a sentence");
+    OCTAVO_CHECK(solid.subtract(solid)->is_empty(), "nothing is left of a solid without itself");
+    constexpr std::int32_t half = exact::universe_side / 2, last = exact::universe_side - 2;
+    for (const auto& [low, high] :
+         {std::pair{exact::Point{1, 1, 1}, exact::Point{last, last, last}},
+          std::pair{exact::Point{half - 5, half, 99}, exact::Point{last, last, half}}}) {
+        const mesh::Mesh box = mesh::box(solid.lattice().to_world(low), solid.lattice().to_world(high));
+        const Result<bsp_octree::Built> tool =
+            bsp_octree::build(box, solid.lattice(), {}, {}, solid.shared_store());
+        OCTAVO_CHECK(tool.has_value(), "a box on the lattice has an octree");
+        for (const auto& made :
+             {solid.subtract(tool->octree), solid.unite(tool->octree), tool->octree.subtract(solid)})
+            OCTAVO_CHECK(made.has_value(), "solids of one lattice can be combined");
+    }
 }
 
 void try_bytes(std::span<const std::uint8_t> bytes) {
