@@ -58,7 +58,7 @@ void tell(Session& session, const bsp_octree::Milled& milled, const WrittenBspOc
                                measures.volume, counted(report.steps, "step", "steps"), 1e3 * median);
     session.warn(report.warnings);
     if (milled.solid.is_empty()) session.warn("nothing is left of the workpiece");
-    if (report.cutting_steps == 0) session.warn("the tool never meets the workpiece");
+    if (report.cutting_steps == 0) session.warn("the tool takes nothing away from the workpiece");
 }
 
 /// What comes in a .bso file is milled as it is; anything else is rounded to a lattice first.
