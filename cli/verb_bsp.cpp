@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0#include <fmt/format.h>
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 
 #include <octavo/bsp_octree/bso_file.hpp>
 #include <octavo/bsp_octree/bso_format.hpp>
