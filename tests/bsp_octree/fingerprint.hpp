@@ -147,7 +147,8 @@ inline Fingerprint fingerprint_of(std::span<const mesh::Mesh> operands, const bo
     std::vector<const mesh::Mesh*> pointers;
     for (const mesh::Mesh& operand : operands) pointers.push_back(&operand);
     const Context context;
-    const Result<boolean::Soup> soup = boolean::make_soup(pointers, boolean::OpenOperands::reject, context);
+    const Result<boolean::Soup> soup =
+        boolean::make_soup(pointers, boolean::OpenOperands::reject, {}, context);
     EXPECT_TRUE(soup);
     const boolean::FacetTree tree(*soup, context);
     boolean::PointTable points(*soup);
