@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <octavo/base/any_scale.hpp>
 #include <octavo/csg/compile_leaf.hpp>
 
 namespace octavo::csg {
@@ -16,8 +17,8 @@ namespace {
 
 using Matrix = std::array<std::array<long double, 3>, 3>;
 
-/// The inverse of the linear part, in long double: its rounding (2^-64 times the condition) stays below that of
-/// the doubles it ends in for every map that is_singular lets pass.
+/// The inverse of the linear part, in long double, whose range no product of doubles leaves. Its rounding, 2^-63 over
+/// the ratio of is_singular, is less than the lattice can tell but for bodies thinner than a thousandth of its unit.
 Matrix inverse(const Affine& map) {
     const auto& m = map.m;
     const auto minor = [&](std::size_t r, std::size_t c) {
@@ -32,6 +33,8 @@ Matrix inverse(const Affine& map) {
         for (std::size_t c = 0; c < 3; ++c) result[r][c] = minor(c, r) / determinant;
     return result;
 }
+
+double largest_component(Vec3 v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
 Vec3 column(const Affine& map, std::size_t c) { return {map.m[0][c], map.m[1][c], map.m[2][c]}; }
 
@@ -139,9 +142,9 @@ class LeafCompiler::Primitives {
             return add(leaf);
         }
         begin_convex();
-        const bool mirrors = place.determinant() < 0;
+        const bool mirrors = place.mirrors();
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            Vec3 normal = cross(column(place, (axis + 1) % 3), column(place, (axis + 2) % 3));
+            Vec3 normal = cross_direction(column(place, (axis + 1) % 3), column(place, (axis + 2) % 3));
             if (mirrors) normal = -normal;
             add_plane(normal, low);
             add_plane(-normal, high);
@@ -151,8 +154,11 @@ class LeafCompiler::Primitives {
 
     Result<Compiled> put(const HalfSpace& half_space, const Affine& place) {
         // A point on the plane, and the normal by the inverse transpose.
-        const double square = dot(half_space.normal, half_space.normal);
-        const Vec3 through = place((half_space.offset / square) * half_space.normal);
+        int exponent = 0;
+        std::frexp(largest_component(half_space.normal), &exponent);
+        const Vec3 direction = scaled_near_one(half_space.normal);
+        const Vec3 through =
+            place((std::ldexp(half_space.offset, -exponent) / dot(direction, direction)) * direction);
         const Matrix inverted = inverse(place);
         Vec3 normal;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -188,8 +194,8 @@ class LeafCompiler::Primitives {
             static_cast<double>(0.5L * (static_cast<long double>(frustum.top) + frustum.bottom) / largest);
         cone.row[2] = {};
         add_cone(cone);
-        Vec3 normal = cross(column(place, 0), column(place, 1));
-        if (place.determinant() < 0) normal = -normal;
+        Vec3 normal = cross_direction(column(place, 0), column(place, 1));
+        if (place.mirrors()) normal = -normal;
         add_plane(normal, to_lattice(place({0, 0, frustum.low})));
         add_plane(-normal, to_lattice(place({0, 0, frustum.high})));
         return end_convex(place(middle));
@@ -235,14 +241,14 @@ class LeafCompiler::Primitives {
     Result<Compiled> put_convex(const Polyhedron& polyhedron, const Affine& place) {
         begin_convex();
         const mesh::Mesh& mesh = *polyhedron.mesh;
-        const double turn = place.determinant() < 0 ? -1 : 1;
+        const double turn = place.mirrors() ? -1 : 1;
         std::vector<Vec3> points;
         points.reserve(mesh.vertices.size());
         for (const Vec3& vertex : mesh.vertices) points.push_back(place(vertex));
         const Neighbours neighbours(mesh);
         for (const mesh::Triangle& triangle : mesh.triangles) {
             const Vec3 a = points[triangle[0]], b = points[triangle[1]], c = points[triangle[2]];
-            const Vec3 inward = -turn * cross(b - a, c - a);
+            const Vec3 inward = -turn * cross_direction(b - a, c - a);
             if (inward == Vec3{}) continue;
             // The plane is moved out to the farthest vertex: the normal of a sliver may point anywhere near its
             // true direction, and a plane that leaves all vertices inside cannot cut anything off.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include <octavo/base/any_scale.hpp>
 #include <octavo/csg/convex_hull.hpp>
 #include <octavo/csg/convex_pieces.hpp>
 #include <octavo/csg/form_bounds.hpp>
@@ -20,7 +21,7 @@ Error unsupported(const char* sentence) { return {ErrorCode::unsupported, senten
 mesh::Mesh placed(const mesh::Mesh& mesh, const Affine& place) {
     mesh::Mesh result = mesh;
     for (Vec3& vertex : result.vertices) vertex = place(vertex);
-    if (place.determinant() < 0)
+    if (place.mirrors())
         for (mesh::Triangle& triangle : result.triangles) std::swap(triangle[1], triangle[2]);
     return result;
 }
@@ -45,7 +46,8 @@ std::optional<FlatLeaf> flat_leaf(const PlacedPrimitive& leaf, std::size_t most_
     if (!flat.convex || flat.mesh.triangles.size() > most_facets) return flat;
     for (const mesh::Triangle& triangle : flat.mesh.triangles) {
         const Vec3 a = flat.mesh.vertices[triangle[0]];
-        Vec3 normal = cross(flat.mesh.vertices[triangle[1]] - a, flat.mesh.vertices[triangle[2]] - a);
+        Vec3 normal =
+            cross_direction(flat.mesh.vertices[triangle[1]] - a, flat.mesh.vertices[triangle[2]] - a);
         const double norm = length(normal);
         if (!(norm > 0)) continue;
         normal = (1 / norm) * normal;

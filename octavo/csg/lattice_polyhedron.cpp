@@ -182,7 +182,7 @@ Result<LatticePolyhedron> snap_polyhedron(const mesh::Mesh& mesh, const Affine& 
         }
         result.points.push_back(point);
     }
-    const bool mirrors = place.determinant() < 0;
+    const bool mirrors = place.mirrors();
     result.triangles.reserve(mesh.triangles.size());
     for (mesh::Triangle triangle : mesh.triangles) {
         if (mirrors) std::swap(triangle[1], triangle[2]);

@@ -73,6 +73,11 @@ class Normaliser {
                     return;
                 }
                 place = compose(place, expr->map());
+                if (!is_finite(place)) {
+                    error_ = Error{
+                        ErrorCode::limit, "transformations together go beyond what a double can hold", {}};
+                    return;
+                }
                 if (is_singular(place)) return add_constant(negated);
             } else if (expr->operation() == Operation::complement) {
                 negated = !negated;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <octavo/base/any_scale.hpp>
 #include <octavo/csg/primitive.hpp>
 
 namespace octavo::csg {
@@ -110,6 +111,10 @@ struct Finite {
     }
 };
 
+/// Below this ratio of volumes the image of a body is thinner than 2^-46 of its size, a millionth of the unit of a
+/// lattice that holds it, and the products that a determinant is made of cancel to their rounding.
+constexpr double least_ratio = 0x1p-46;
+
 }  // namespace
 
 bool is_degenerate(const Primitive& primitive) { return std::visit(Degenerate{}, primitive); }
@@ -122,25 +127,24 @@ Box3 bounds(const Primitive& primitive, const Affine& place) {
 
 bool is_singular(const Affine& map) {
     // Hadamard's ratio: the volume that the unit cube's image spans, over that of a box with its edges, taken by
-    // rows and by columns, so that scaling an axis before or after does not count. A ratio of 2^-46 or less
-    // leaves less than the rounding of a few products.
-    const double determinant = std::fabs(map.determinant());
+    // rows and by columns, so that scaling an axis before or after does not count.
+    const auto& m = map.m;
+    const auto square = [](double x, double y, double z) { return x * x + y * y + z * z; };
     // Squares first: six roots a primitive were a tenth of the time that compiling an expression takes.
     double row_squares = 1, column_squares = 1;
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto& m = map.m;
-        row_squares *= m[i][0] * m[i][0] + m[i][1] * m[i][1] + m[i][2] * m[i][2];
-        column_squares *= m[0][i] * m[0][i] + m[1][i] * m[1][i] + m[2][i] * m[2][i];
+        row_squares *= square(m[i][0], m[i][1], m[i][2]);
+        column_squares *= square(m[0][i], m[1][i], m[2][i]);
     }
     const double least_square = std::min(row_squares, column_squares);
-    if (least_square > 1e-200 && least_square < 1e200 && determinant > 0x1p-45 * std::sqrt(least_square))
+    if (least_square > 1e-200 && least_square < 1e200 &&
+        std::fabs(map.determinant()) > least_ratio * std::sqrt(least_square))
         return false;
-    double rows = 1, columns = 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-        rows *= std::hypot(map.m[i][0], map.m[i][1], map.m[i][2]);
-        columns *= std::hypot(map.m[0][i], map.m[1][i], map.m[2][i]);
-    }
-    return !(determinant > 0x1p-46 * std::min(rows, columns));
+    // Otherwise with rows and columns brought to one size, where nothing overflows or vanishes.
+    const Affine even = balanced(map);
+    row_squares = 1;
+    for (const auto& row : even.m) row_squares *= square(row[0], row[1], row[2]);
+    return !(std::fabs(even.determinant()) > least_ratio * std::sqrt(row_squares));
 }
 
 }  // namespace octavo::csg

@@ -63,8 +63,8 @@ bool is_finite(const Primitive& primitive);
 /// The smallest known box around the image of the primitive; infinite sides where it is unbounded.
 Box3 bounds(const Primitive& primitive, const Affine& place);
 
-/// Whether the map squeezes space into a plane, line or point as far as doubles can tell: the image of a solid
-/// then has no interior.
+/// Whether the map squeezes space into a plane, line or point, or so near one that no lattice can tell: the image of a
+/// solid then has no interior. How much it scales, along whichever axes, does not count.
 bool is_singular(const Affine& map);
 
 }  // namespace octavo::csg

@@ -4,6 +4,7 @@
 
 #include <polyclipping/clipper.hpp>
 
+#include <octavo/base/any_scale.hpp>
 #include <octavo/csg/region.hpp>
 
 namespace octavo::csg {
@@ -178,13 +179,14 @@ Region minkowski_sum(const Region& a, const Region& b) {
 
 Region transform(const Affine& map, const Region& region) {
     Region result = region;
-    const double determinant = map.m[0][0] * map.m[1][1] - map.m[0][1] * map.m[1][0];
-    if (determinant == 0) return {};
+    const Affine flat{{{{map.m[0][0], map.m[0][1], 0, 0}, {map.m[1][0], map.m[1][1], 0, 0}, {0, 0, 1, 0}}}};
+    const int sign = determinant_sign(flat);
+    if (sign == 0) return {};
     for (Contour& contour : result.contours) {
         for (Vec2& p : contour)
             p = {map.m[0][0] * p.x + map.m[0][1] * p.y + map.m[0][3],
                  map.m[1][0] * p.x + map.m[1][1] * p.y + map.m[1][3]};
-        if (determinant < 0) std::reverse(contour.begin(), contour.end());
+        if (sign < 0) std::reverse(contour.begin(), contour.end());
     }
     return result;
 }

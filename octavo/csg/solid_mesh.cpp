@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <octavo/base/any_scale.hpp>
 #include <octavo/csg/solid_mesh.hpp>
 #include <octavo/mesh/used_vertices.hpp>
 #include <octavo/mesh/weld.hpp>
@@ -20,14 +21,25 @@ bool is_convex(const mesh::Mesh& mesh) {
     const double tolerance = 0x1p-34 * std::max({extents.x, extents.y, extents.z});
     for (const mesh::Triangle& triangle : mesh.triangles) {
         const Vec3 a = mesh.vertices[triangle[0]];
-        const Vec3 normal = cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a);
+        const Vec3 normal = cross_direction(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a);
         const double norm = length(normal);
         if (!(norm > 0)) continue;
         for (const mesh::Triangle& other : mesh.triangles)
             for (const mesh::VertexIndex vertex : other)
                 if (dot(normal, mesh.vertices[vertex] - a) > tolerance * norm) return false;
     }
-    return six_volumes(mesh) > 0;
+    return volume_sign(mesh) > 0;
+}
+
+/// Of the mesh made larger by `scale`.
+double six_volumes(const mesh::Mesh& mesh, double scale) {
+    if (mesh.triangles.empty()) return 0;
+    const Vec3 origin = mesh.vertices[mesh.triangles[0][0]];
+    const auto at = [&](mesh::VertexIndex vertex) { return scale * (mesh.vertices[vertex] - origin); };
+    double sum = 0;
+    for (const mesh::Triangle& triangle : mesh.triangles)
+        sum += dot(at(triangle[0]), cross(at(triangle[1]), at(triangle[2])));
+    return sum;
 }
 
 }  // namespace
@@ -79,14 +91,16 @@ mesh::Mesh weld_near(const mesh::Mesh& mesh, double grid) {
     return welded;
 }
 
-double six_volumes(const mesh::Mesh& mesh) {
-    if (mesh.triangles.empty()) return 0;
-    const Vec3 origin = mesh.vertices[mesh.triangles[0][0]];
-    double sum = 0;
-    for (const mesh::Triangle& triangle : mesh.triangles)
-        sum += dot(mesh.vertices[triangle[0]] - origin,
-                   cross(mesh.vertices[triangle[1]] - origin, mesh.vertices[triangle[2]] - origin));
-    return sum;
+double six_volumes(const mesh::Mesh& mesh) { return six_volumes(mesh, 1); }
+
+int volume_sign(const mesh::Mesh& mesh) {
+    const Vec3 extents = mesh::bounds_of_facets(mesh).extents();
+    const double longest = std::max({extents.x, extents.y, extents.z});
+    if (!(longest > 0)) return 0;
+    // Cubes of lengths vanish below 1e-108 and overflow beyond 1e102.
+    constexpr int most = 1000;
+    const double volume = six_volumes(mesh, std::ldexp(1.0, std::min(most, -std::ilogb(longest))));
+    return volume > 0 ? 1 : volume < 0 ? -1 : 0;
 }
 
 Polyhedron as_polyhedron(mesh::Mesh mesh) {

@@ -19,6 +19,9 @@ mesh::Mesh weld_near(const mesh::Mesh& mesh, double grid);
 /// Six times the signed volume of a closed mesh, in doubles.
 double six_volumes(const mesh::Mesh& mesh);
 
+/// Its sign, whatever the scale: -1 for a mesh that is inside out.
+int volume_sign(const mesh::Mesh& mesh);
+
 /// A polyhedron, marked convex when all vertices lie below all facets within 2^-34 of its extent. Meshes with more
 /// than 4 million pairs of vertex and facet are taken as not convex without looking. Vertices that no facet uses are dropped.
 Polyhedron as_polyhedron(mesh::Mesh mesh);

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
-#include <octavo/base/vec3.hpp>
+#include <octavo/base/any_scale.hpp>
 
 namespace octavo {
 namespace {
@@ -16,7 +21,39 @@ TEST(Affine, MirrorsWhateverItsScaleIs) {
         EXPECT_TRUE(diagonal(-size, 1, 1 / size).mirrors()) << size;
     }
     EXPECT_FALSE(diagonal(0, -1, 1).mirrors()) << "a flat map has no side";
+    EXPECT_EQ(determinant_sign(diagonal(0, -1, 1)), 0);
+    EXPECT_EQ(determinant_sign(diagonal(1e-300, 1e300, 1e-300)), 1);
+    EXPECT_EQ((determinant_sign({{{{1e-200, 1, 0, 0}, {1e-200, 2, 0, 0}, {0, 0, 1e200, 0}}}})), 1);
     EXPECT_TRUE((Affine{{{{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}}}}.mirrors()));
+}
+
+TEST(Affine, TheSignOfTheDeterminantIsThatOfRationals) {
+    using Rational = boost::multiprecision::cpp_rational;
+    std::mt19937_64 random(3);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<std::uint64_t>(n)); };
+    int flat = 0;
+    for (int round = 0; round < 1500; ++round) {
+        // Few digits, so that many are singular or nearly so; each row and column at a scale of its own.
+        Affine map;
+        std::array<std::array<Rational, 3>, 3> a;
+        std::array<int, 3> row_scale{}, column_scale{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            row_scale[i] = below(2) ? 0 : below(600) - 300;
+            column_scale[i] = below(2) ? 0 : below(600) - 300;
+        }
+        for (std::size_t r = 0; r < 3; ++r)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double digits = below(5) - 2 + (below(4) ? 0 : std::ldexp(below(3) - 1, -50));
+                map.m[r][c] = std::ldexp(digits, row_scale[r] + column_scale[c]);
+                a[r][c] = Rational(map.m[r][c]);
+            }
+        const Rational exact = a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
+                               a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+                               a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+        ASSERT_EQ(determinant_sign(map), exact.sign()) << round;
+        flat += exact.sign() == 0;
+    }
+    EXPECT_GT(flat, 80);
 }
 
 TEST(Affine, MirrorsIsDecidedBeyondRounding) {

@@ -9,6 +9,7 @@
 #include <octavo/csg/extrude.hpp>
 #include <octavo/csg/revolve.hpp>
 #include <octavo/csg/solid_mesh.hpp>
+#include <octavo/csg/tessellate.hpp>
 
 namespace octavo::csg {
 namespace {
@@ -28,6 +29,46 @@ void expect_hull(const std::vector<Vec3>& points, const mesh::Mesh& hull) {
         const Vec3 normal = cross(hull.vertices[t[1]] - a, hull.vertices[t[2]] - a);
         if (length(normal) < tolerance * tolerance) continue;
         for (const Vec3& p : points) ASSERT_LE(dot(normal, p - a), tolerance * length(normal) + 1e-12);
+    }
+}
+
+Affine diagonal(double x, double y, double z) { return {{{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}}}}; }
+
+TEST(Singular, IsWhatSqueezesSpaceFlatWhateverTheScale) {
+    const Affine turn{{{{0.6, -0.8, 0, 0}, {0.48, 0.36, -0.8, 0}, {0.64, 0.48, 0.6, 0}}}};
+    for (const double size : {1.0, 1e-120, 1e-300, 1e110, 1e300}) {
+        EXPECT_FALSE(is_singular(diagonal(size, size, size))) << size;
+        EXPECT_FALSE(is_singular(diagonal(size, -1, 1 / size))) << size;
+        EXPECT_FALSE(is_singular(compose(turn, diagonal(size, size, size)))) << size;
+        EXPECT_TRUE(is_singular(diagonal(size, size, 0))) << size;
+        // Decimals that are singular, doubles that are nearly so.
+        EXPECT_TRUE(is_singular({{{{0.1 * size, 0.2 * size, 0.3 * size, 0},
+                                   {0.4 * size, 0.5 * size, 0.6 * size, 0},
+                                   {0.7 * size, 0.8 * size, 0.9 * size, 0}}}}))
+            << size;
+    }
+    EXPECT_TRUE(is_singular(compose(turn, compose(diagonal(1, 1, 1e-17), turn))));
+    EXPECT_FALSE(is_singular(compose(turn, diagonal(1, 1, 1e-17))));
+}
+
+TEST(SolidMesh, KnowsOutsideAndConvexityWhateverTheScale) {
+    // A cube with a dent in its top.
+    mesh::Mesh dented = cuboid_mesh({-1, -1, -1}, {1, 1, 1});
+    dented.triangles.erase(dented.triangles.begin() + 2, dented.triangles.begin() + 4);
+    dented.vertices.push_back({0, 0, 0.5});
+    for (const auto& [a, b] : {std::pair{4, 5}, {5, 7}, {7, 6}, {6, 4}})
+        dented.triangles.push_back({static_cast<mesh::VertexIndex>(a), static_cast<mesh::VertexIndex>(b), 8});
+    for (const double size : {1.0, 1e-90, 1e-290, 1e110, 1e270}) {
+        mesh::Mesh scaled = dented;
+        for (Vec3& vertex : scaled.vertices) vertex = size * vertex;
+        EXPECT_EQ(volume_sign(scaled), 1) << size;
+        EXPECT_EQ(as_polyhedron(scaled).convexity, Convexity::any) << size;
+        for (mesh::Triangle& t : scaled.triangles) std::swap(t[1], t[2]);
+        EXPECT_EQ(volume_sign(scaled), -1) << size;
+        const mesh::Mesh cube = cuboid_mesh({-size, -size, -size}, {size, size, size});
+        EXPECT_EQ(as_polyhedron(cube).convexity, Convexity::convex) << size;
+        EXPECT_LT(area(transform(diagonal(-size, 1, 1), Region{{{{0, 0}, {0, 1}, {1, 0}}}})), 0)
+            << "a hole stays a hole";
     }
 }
 
