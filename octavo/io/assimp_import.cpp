@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <new>
 #include <optional>
+#include <set>
 #include <utility>
 
+#include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 
@@ -108,10 +111,26 @@ class SceneReader {
     FileMesh result_;
 };
 
+constexpr std::array<std::string_view, 10> formats{"3ds", "amf",  "dae", "dxf", "fbx",
+                                                   "glb", "gltf", "lwo", "x",   "x3d"};
+
+/// Leaves the importers of these formats alone. Where the extension does not decide, assimp asks all that it has.
+void keep_listed(Assimp::Importer& importer) {
+    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+        Assimp::BaseImporter* const one = importer.GetImporter(i);
+        std::set<std::string> extensions;
+        one->GetExtensionList(extensions);
+        if (std::any_of(extensions.begin(), extensions.end(), assimp_reads)) continue;
+        importer.UnregisterLoader(one);
+        delete one;  // who unregisters it owns it
+    }
+}
+
 /// Runs an import and reads its scene; whatever assimp throws is its opinion of the file.
 template <class Import>
 Result<FileMesh> imported(const ReadOptions& options, const Context& context, const Import& import) try {
     Assimp::Importer importer;
+    keep_listed(importer);
     const aiScene* const scene = import(importer);
     if (!scene) return Error{ErrorCode::bad_input, std::string("assimp: ") + importer.GetErrorString(), {}};
     return SceneReader(*scene, options, context).read();
@@ -123,8 +142,10 @@ Result<FileMesh> imported(const ReadOptions& options, const Context& context, co
 
 }  // namespace
 
+std::span<const std::string_view> assimp_formats() { return formats; }
+
 bool assimp_reads(const std::string& extension) {
-    return !extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension);
+    return std::find(formats.begin(), formats.end(), extension) != formats.end();
 }
 
 Result<FileMesh> read_by_assimp(const std::string& path, const ReadOptions& options, const Context& context) {

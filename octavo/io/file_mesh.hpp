@@ -20,6 +20,7 @@ struct FileMesh {
     /// The number in the file of each face; empty when face i is the file's i-th.
     std::vector<std::uint32_t> number_of_face;
     std::vector<std::string> warnings;
+    std::vector<std::string> beside;  ///< files beside this one that it was read from too
     std::string unit;                 ///< name of the unit of length, when the file states one
     double millimetres_per_unit = 0;  ///< 0 when it does not
 

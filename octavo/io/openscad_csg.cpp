@@ -66,7 +66,13 @@ class Evaluator {
     }
 
     Scope scope_of(std::size_t index) {
-        return {syntax_, options_, context_, folder_, file_.warnings, (marks_[index] & faceted) != 0};
+        return {syntax_,
+                options_,
+                context_,
+                folder_,
+                file_.warnings,
+                file_.files,
+                (marks_[index] & faceted) != 0};
     }
     /// Nothing when the node is an operation.
     std::optional<Result<Geometry>> leaf(std::size_t index) {
@@ -96,7 +102,7 @@ class Evaluator {
     }
 
     Result<CsgFile> finish() {
-        const Scope scope{syntax_, options_, context_, folder_, file_.warnings, true};
+        const Scope scope{syntax_, options_, context_, folder_, file_.warnings, file_.files, true};
         Node top;
         top.name = "the file";
         Geometry geometry;

@@ -43,6 +43,7 @@ struct CsgReadOptions {
 struct CsgFile {
     csg::Expr expression;
     std::vector<std::string> warnings;  ///< one sentence each, with line and column
+    std::vector<std::string> files;     ///< that were imported, and what these refer to
     std::uint64_t nodes = 0;
     std::uint64_t primitives = 0;  ///< solid and flat ones
 };

@@ -34,7 +34,8 @@ struct Scope {
     const Context& context;
     const std::string& folder;
     std::vector<std::string>& warnings;
-    bool faceted;  ///< round things must be polyhedra here
+    std::vector<std::string>& files;  ///< that were imported
+    bool faceted;                     ///< round things must be polyhedra here
 
     void warn(const Node& node, const std::string& sentence) const;
     /// Whether a mesh of so many vertices is too large; then the error says so.

@@ -283,12 +283,11 @@ Result<Geometry> linear_extrude(const Node& node, Children children, const Scope
         if (geometry.is_solid()) scope.warn(node, "linear_extrude(…) of a solid is left out");
         return Geometry::none();
     }
-    constexpr double most = 100'000;
-    options.slices = slices ? static_cast<int>(std::clamp(*slices, 1.0, most))
-                            : csg::slices_of(geometry.region, options, roundness);
-    if (std::optional<Error> error =
-            scope.too_large(node, corners_in(geometry.region) * (options.slices + 1)))
+    const double layers =
+        slices ? std::max(std::floor(*slices), 1.0) : csg::slices_of(geometry.region, options, roundness);
+    if (std::optional<Error> error = scope.too_large(node, corners_in(geometry.region) * (layers + 1)))
         return *error;
+    options.slices = static_cast<int>(layers);  // a region has corners, and these were counted
     mesh::Mesh mesh = csg::linear_extrude(geometry.region, options);
     if (mesh.triangles.empty()) return Geometry::none();
     return Geometry::of(csg::Expr(csg::as_polyhedron(std::move(mesh))));

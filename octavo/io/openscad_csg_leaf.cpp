@@ -105,7 +105,7 @@ Result<Geometry> polyhedron(const Node& node, const Scope& scope) {
                    ? scope.unsupported(node, "its faces do not close")
                    : scope.syntax.error_at(node.place, "polyhedron(…): its faces do not close",
                                            ErrorCode::not_a_solid);
-    if (csg::six_volumes(mesh) < 0) {
+    if (csg::volume_sign(mesh) < 0) {
         scope.warn(node, "polyhedron(…) is inside out and was turned");
         for (mesh::Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
     }
@@ -169,6 +169,8 @@ Result<Geometry> import_mesh(const Node& node, const Scope& scope) {
         if (read.error().code == ErrorCode::cancelled) return read.error();
         return scope.unsupported(node, file + ": " + read.error().sentence);
     }
+    scope.files.push_back(path.string());
+    scope.files.insert(scope.files.end(), read->beside.begin(), read->beside.end());
     mesh::Mesh mesh = std::move(read->mesh);
     mesh.sources.clear();
     for (const Vec3& vertex : mesh.vertices)

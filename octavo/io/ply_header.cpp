@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unordered_set>
+
 #include <octavo/io/file_mesh.hpp>
 #include <octavo/io/ply_header.hpp>
 #include <octavo/io/text_scanner.hpp>
@@ -97,8 +99,9 @@ class HeaderReader {
         const std::optional<std::uint64_t> count =
             scanner_.at_line_end() ? std::optional<std::uint64_t>{} : scanner_.count();
         if (element.name.empty() || !count) return error("an element needs a name and a count");
-        if (header_.element(element.name))
+        if (!elements_.insert(element.name).second)
             return error("the element " + element.name + " is announced twice");
+        properties_.clear();
         element.count = *count;
         header_.elements.push_back(std::move(element));
         return {};
@@ -119,6 +122,9 @@ class HeaderReader {
         property.type = *type;
         property.name = word_in_line();
         if (property.name.empty()) return error("a property has no name");
+        if (!properties_.insert(property.name).second)
+            return error("the property " + property.name + " of the element " + header_.elements.back().name +
+                         " is announced twice");
         header_.elements.back().properties.push_back(std::move(property));
         return {};
     }
@@ -131,6 +137,8 @@ class HeaderReader {
     TextScanner scanner_;
     const char* line_ = nullptr;  ///< its keyword
     PlyHeader header_;
+    // What was announced so far; of properties those of the last element.
+    std::unordered_set<std::string> elements_, properties_;
 };
 
 }  // namespace

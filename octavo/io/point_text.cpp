@@ -89,6 +89,9 @@ class PointTextReader {
             const auto is_axis = [&](std::string_view field) { return equals_ignoring_case(field, name); };
             const auto column = std::find_if(fields_.begin(), fields_.end(), is_axis);
             if (column == fields_.end()) continue;
+            const auto again = std::find_if(column + 1, fields_.end(), is_axis);
+            if (again != fields_.end())
+                return scanner_.error_at(again->data(), "a second column is named " + std::string(*again));
             columns_[axis] = static_cast<std::size_t>(column - fields_.begin());
             ++found;
         }

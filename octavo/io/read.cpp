@@ -23,7 +23,8 @@ struct Found {
 };
 
 Error unknown_format(const std::string& name) {
-    const std::string known = "known are " + mesh_format_names() + " and what assimp reads";
+    std::string known = "known are " + mesh_format_names();
+    for (const std::string_view format : assimp_formats()) known.append(", ").append(format);
     if (name.empty())
         return {ErrorCode::unsupported, "the format cannot be told from the content; " + known, {}};
     return {ErrorCode::unsupported, "the format \"" + name + "\" is not known; " + known, {}};
@@ -51,7 +52,7 @@ Result<Found> find_mesh(Bytes bytes, const ReadOptions& options, const Context& 
     if (const Format* const ours = mesh_format_named(name))
         return named(ours->read(bytes, options, context), name);
     if (assimp_reads(name)) return named(read_by_assimp(bytes, name, options, context), name);
-    return unknown_format(name);
+    return unknown_format(name.empty() ? extension_of(options.path) : name);
 } catch (const std::bad_alloc&) {
     return Error{ErrorCode::limit, "does not fit into memory", {}};
 }
@@ -130,6 +131,7 @@ Result<ReadMesh> to_mesh(Found found, const Context& context) {
     ReadMesh result;
     result.format = std::move(found.format);
     result.warnings = remarks(found.file);
+    result.beside = std::move(found.file.beside);
     result.left_behind = std::move(found.file.left_behind);
     result.unit = std::move(found.file.unit);
     result.millimetres_per_unit = found.file.millimetres_per_unit;

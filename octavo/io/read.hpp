@@ -11,14 +11,14 @@
 #include <octavo/mesh/mesh.hpp>
 
 // Reads meshes: STL, OBJ, PLY, OFF, 3MF and TetGen's .poly and .smesh by readers of our own, which take every decimal to the nearest
-// double and name the line or byte of what is wrong; every other format through assimp, which delivers
+// double and name the line or byte of what is wrong; some others (assimp_import.hpp) through assimp, which delivers
 // floats. Vertices and faces come in the order of the file. Nothing is repaired, and nothing is merged except
 // the bit-equal corners of formats that store loose triangles (STL, and those of assimp).
 
 namespace octavo::io {
 
 struct ReadOptions {
-    /// Name of the format ("stl", "obj", "ply", "off", "3mf", "poly", "smesh", or an extension that assimp knows); empty
+    /// Name of the format ("stl", "obj", "ply", "off", "3mf", "poly", "smesh", or one of assimp_import.hpp); empty
     /// takes it from the file's extension, and from the content when that says nothing.
     std::string format;
     /// Where bytes in memory come from, for formats that keep a part of a mesh in a file beside (.poly and .smesh their
@@ -34,8 +34,10 @@ struct ReadMesh {
     mesh::Mesh mesh;
     std::string format;                 ///< name of the format that was read
     std::vector<std::string> warnings;  ///< remarks on what was ignored or changed, one sentence each
-    std::uint64_t polygons = 0;         ///< faces in the file
-    std::uint64_t triangulated = 0;     ///< of them, those with more than three corners
+    std::vector<std::string>
+        beside;                      ///< files beside the one named that were read too: the points of a .poly
+    std::uint64_t polygons = 0;      ///< faces in the file
+    std::uint64_t triangulated = 0;  ///< of them, those with more than three corners
     /// The face of the file that each triangle is of; empty when triangle i is face i.
     std::vector<std::uint32_t> polygon_of_triangle;
     std::string unit;                 ///< unit of length, when the file states one; coordinates are as stored

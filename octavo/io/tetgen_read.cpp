@@ -113,16 +113,14 @@ Result<Points> read_points(Rows& rows) {
     return result;
 }
 
-/// The points of the .node file beside a boundary.
-Result<Points> read_points_beside(const std::string& boundary, const Context& context) {
-    if (boundary.empty())
-        return Error{ErrorCode::unsupported,
-                     "has no points; they are in a .node file, which is looked for beside a file only",
-                     {}};
+/// The .node file beside a boundary.
+std::string node_file_of(const std::string& boundary) {
     const std::string extension = extension_of(boundary);
-    const std::string path =
-        (extension.empty() ? boundary + "." : boundary.substr(0, boundary.size() - extension.size())) +
-        "node";
+    return (extension.empty() ? boundary + "." : boundary.substr(0, boundary.size() - extension.size())) +
+           "node";
+}
+
+Result<Points> read_node_file(const std::string& path, const Context& context) {
     const auto in_node_file = [&](Error error) {
         error.place.file = path;
         return error;
@@ -142,8 +140,15 @@ class BoundaryReader {
 
     Result<FileMesh> read() {
         Result<Points> points = read_points(rows_);
-        if (points && points->points.empty() && !has_no_facets())
-            points = read_points_beside(path_, context_);
+        if (points && points->points.empty() && !has_no_facets()) {
+            if (path_.empty())
+                return Error{
+                    ErrorCode::unsupported,
+                    "has no points; they are in a .node file, which is looked for beside a file only",
+                    {}};
+            result_.beside.push_back(node_file_of(path_));
+            points = read_node_file(result_.beside.back(), context_);
+        }
         if (!points) return points.error();
         result_.vertices = std::move(points->points);
         first_ = points->first;

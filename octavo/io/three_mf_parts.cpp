@@ -141,7 +141,8 @@ class PartReader {
             if (!component) return component.error();
             object.components.push_back(std::move(*component));
         }
-        part_.object_of_id.try_emplace(object.id, part_.objects.size());
+        if (!part_.object_of_id.try_emplace(object.id, part_.objects.size()).second)
+            return error(node.offset_debug(), "has two objects of the id " + std::to_string(object.id));
         part_.objects.push_back(std::move(object));
         return {};
     }

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+
+#include <octavo/io/assimp_import.hpp>
+
+#include "folder.hpp"
 #include "from_text.hpp"
 
 namespace octavo::io {
@@ -49,6 +54,40 @@ TEST(AssimpImport, HandsOnWhatAssimpSays) {
     EXPECT_EQ(read.error().code, ErrorCode::bad_input);
     EXPECT_THAT(read.error().sentence, testing::StartsWith("assimp: "));
     EXPECT_EQ(read_text("x", "no-such-format").error().code, ErrorCode::unsupported);
+}
+
+TEST(AssimpImport, ReachesNoImporterThatIsNotListed) {
+    // Zeros in these crashed the program, and text in .smd kept it busy for ever.
+    const Folder folder;
+    for (const char* name :
+         {"a.lws", "a.mot", "a.smd", "a.blend", "a.q3s", "a.md5mesh", "a.no-such-format"}) {
+        std::ofstream(folder / name) << std::string(400, '\0');
+        const Result<ReadMesh> read = read_mesh(folder / name);
+        ASSERT_FALSE(read) << name;
+        EXPECT_EQ(read.error().code, ErrorCode::unsupported) << name;
+        EXPECT_THAT(read.error().sentence, testing::HasSubstr("is not known; known are stl, ")) << name;
+        EXPECT_THAT(read.error().sentence, testing::HasSubstr("glb")) << name;
+    }
+    std::ofstream(folder / "b.smd") << "version 1\nnodes\n";
+    EXPECT_FALSE(read_mesh(folder / "b.smd"));
+}
+
+TEST(AssimpImport, WhatIsListedSurvivesBytesThatAreNone) {
+    const Folder folder;
+    std::uint32_t random = 1;
+    for (const std::string_view format : assimp_formats())
+        for (int round = 0; round < 8; ++round) {
+            std::string bytes(400, '\0');
+            for (char& byte : bytes) {
+                random = random * 1664525U + 1013904223U;
+                if (round > 0) byte = static_cast<char>(round % 2 ? random >> 24 : 32 + (random >> 24) % 95);
+            }
+            const std::string path = folder / ("a." + std::string(format)).c_str();
+            std::ofstream(path) << bytes;
+            // Some are pleased with nothing; then it is an empty solid.
+            const Result<ReadMesh> read = read_mesh(path);
+            EXPECT_TRUE(!read || read->mesh.triangles.empty()) << format << " " << round;
+        }
 }
 
 }  // namespace

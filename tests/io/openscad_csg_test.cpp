@@ -10,6 +10,7 @@
 
 #include <octavo/csg/convex_pieces.hpp>
 #include <octavo/csg/normal_form.hpp>
+#include <octavo/csg/program.hpp>
 #include <octavo/io/openscad_csg.hpp>
 
 namespace octavo::io {
@@ -44,6 +45,47 @@ double volume(const std::string& text) {
 Box3 bounds(const std::string& text) { return *csg::tight_bounds(read_or_die(text).expression); }
 
 double prism(int n, double r, double h) { return 0.5 * n * r * r * std::sin(2 * std::acos(-1.0) / n) * h; }
+
+std::string scaled(const std::string& size, const std::string& part, const std::string& z = "") {
+    return "multmatrix([[" + size + ", 0, 0, 0], [0, " + size + ", 0, 0], [0, 0, " + (z.empty() ? size : z) +
+           ", 0], [0, 0, 0, 1]]) { " + part + " }";
+}
+
+TEST(OpenscadCsg, AnyScaleButZeroKeepsASolid) {
+    const std::string inside_out =
+        "polyhedron(points = [[0, 0, 0], [0, 0, 1], [0, 1, 0], [1, 0, 0]], faces = [[0, 2, 1], [0, 1, 3], "
+        "[0, 3, 2], [1, 2, 3]]);";
+    for (const std::string size : {"1e-120", "1e-200", "1e110", "1e200"}) {
+        for (const std::string& part : {std::string("cube(1);"), std::string("sphere(r = 1);"), inside_out}) {
+            const std::string text = scaled(size, part);
+            const CsgFile file = read_or_die(text);
+            EXPECT_TRUE(file.warnings.empty()) << text << file.warnings[0];
+            const Result<csg::Program> program = csg::compile(file.expression);
+            ASSERT_TRUE(program) << text << program.error().describe();
+            ASSERT_EQ(program->leaves.size(), 1u) << text;
+            const csg::Leaf& leaf = program->leaves[0];
+            const double width = (leaf.high[0] - leaf.low[0]) * program->lattice.unit();
+            EXPECT_NEAR(width / std::stod(size), part.starts_with("sphere") ? 2 : 1, 0.2) << text;
+        }
+    }
+    const CsgFile flat = read_or_die("union() { cube(1);\n" + scaled("1e-120", "cube(1);", "0") + "}");
+    ASSERT_EQ(flat.warnings.size(), 1u);
+    EXPECT_NE(flat.warnings[0].find("line 2"), std::string::npos) << flat.warnings[0];
+    EXPECT_NE(flat.warnings[0].find("flat"), std::string::npos) << flat.warnings[0];
+}
+
+TEST(OpenscadCsg, SlicesAreTakenAsTheyAreOrRefusedWithTheLine) {
+    const auto slices = [](const std::string& count) {
+        return "\nlinear_extrude(height = 1, twist = 360, slices = " + count + ") { square([1, 1]); }";
+    };
+    const Result<CsgFile> refused = read_csg_text(slices("1000000000"), ".", facets());
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::limit);
+    EXPECT_EQ(refused.error().place.line, 2u);
+    const CsgFile many = read_or_die(slices("150000"));
+    ASSERT_EQ(many.expression.operation(), csg::Operation::primitive);
+    EXPECT_EQ(std::get<csg::Polyhedron>(many.expression.primitive()).mesh->vertices.size(), 600'004u);
+}
 
 TEST(OpenscadCsg, PrimitivesWithoutExtentAreEmptyWithAWarningThatNamesTheLine) {
     for (const char* text : {"cube(size = [-1, 2, 3]);", "cube(0);", "sphere(r = -2);", "sphere(r = 0);",

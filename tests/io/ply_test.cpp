@@ -25,6 +25,25 @@ void expect_square(std::string_view text) {
     EXPECT_EQ(read.mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
 }
 
+TEST(PlyHeader, RefusesNamesThatAreAnnouncedTwice) {
+    expect_refused(replaced(square, "property float z\n", "property float z\nproperty float x\n"), "ply", 8,
+                   "the property x of the element vertex is announced twice");
+    expect_refused(replaced(square, "end_header", "element vertex 1\nend_header"), "ply", 10,
+                   "the element vertex is announced twice");
+    // The same name in another element is another property.
+    must_read(replaced(square, "end_header", "element more 0\nproperty float x\nend_header"), "ply");
+}
+
+TEST(PlyHeader, TakesTimeInProportionToItsLength) {
+    // When each was compared with all before it, this took minutes.
+    std::string many;
+    for (int i = 0; i < 200'000; ++i) many += "element e" + std::to_string(i) + " 0\nproperty float p\n";
+    must_read(replaced(square, "element vertex", many + "element vertex"), "ply");
+    many.clear();
+    for (int i = 0; i < 200'000; ++i) many += "property float p" + std::to_string(i) + "\n";
+    must_read(replaced(square, "end_header", "element more 0\n" + many + "end_header"), "ply");
+}
+
 TEST(PlyText, ReadsAnyLayout) {
     expect_square(square);
     expect_square(replaced(square, "\n", "\r\n"));

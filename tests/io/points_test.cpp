@@ -28,6 +28,11 @@ void expect_points_refused(std::string_view text, std::uint64_t line, const char
 
 const Points two_points{{1, 2.5, -3e-5}, {4, 5, 6}};
 
+TEST(PointText, RefusesTwoColumnsOfOneAxis) {
+    expect_points_refused("# head\nx,y,z,X\n1,2,3,4\n", 2, "a second column is named X");
+    EXPECT_EQ(points_in("x,y,z,t,t\n1,2,3,4,5\n"), (Points{{1, 2, 3}}));
+}
+
 TEST(PointText, ReadsAnySeparatorWithOrWithoutNames) {
     for (const char* text :
          {"1,2.5,-3e-5\n4,5,6\n", "1;2.5;-3e-5\n4;5;6", "1 2.5 -3e-5\n4  5\t6\n",

@@ -253,6 +253,7 @@ TEST(TetGen, FindsPointsInTheNodeFileBeside) {
     const Result<ReadMesh> read = read_mesh(folder / "part.1.smesh");
     ASSERT_TRUE(read) << read.error().describe();
     EXPECT_EQ(volume_of(read->mesh), 36);
+    EXPECT_EQ(read->beside, std::vector<std::string>{folder / "part.1.node"});
     std::ofstream(folder / "part.1.node") << "4 3 0 0\n0 0 0 0\n1 6 0 0\n2 0 x 0\n3 0 0 6\n";
     const Result<ReadMesh> bad = read_mesh(folder / "part.1.smesh");
     ASSERT_FALSE(bad);

@@ -44,6 +44,11 @@ TEST(ThreeMf, ReadsTheObjectsOfTheBuild) {
     EXPECT_EQ(read.millimetres_per_unit, 1);
 }
 
+TEST(ThreeMf, RefusesTwoObjectsOfOneId) {
+    expect_refused(file_of(object_1 + object_1, "<item objectid=\"1\"/>"), "3mf", 5,
+                   "two objects of the id 1");
+}
+
 TEST(ThreeMf, NamesWhatItLeavesBehind) {
     EXPECT_EQ(must_read(file_of(object_1, "<item objectid=\"1\"/>"), "3mf").left_behind,
               std::vector<std::string>{});
@@ -224,7 +229,6 @@ TEST(ThreeMf, FindsEachOfManyObjectsAndParts) {
         build += "<item objectid=\"" + std::to_string(id) + "\"/>\n";
     }
     resources += "<object id=\"100001\">" + one_triangle + "</object>\n";
-    resources += "<object id=\"100001\"/>\n";  // the first of an id counts
     build += "<item objectid=\"100001\"/>\n";
     EXPECT_EQ(must_read(file_of(resources, build), "3mf").mesh.triangles.size(), 1U);
 
