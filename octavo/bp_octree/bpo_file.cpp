@@ -54,7 +54,7 @@ Result<ReadBpo> read_bpo(const std::string& path, const ReadBpoOptions& options,
 
 Result<io::WriteReport> write_bpo(const std::string& path, std::span<const std::uint8_t> bytes,
                                   const Context& context) {
-    Result<io::Output> output = io::Output::to_file(path);
+    Result<io::Output> output = io::Output::to_file(path, context);
     if (!output) return output.error();
     output->append(octavo::Bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()));
     if (context.cancelled()) return Context::cancelled_error();

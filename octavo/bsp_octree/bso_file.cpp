@@ -18,7 +18,7 @@ Error in_file(Error error, const std::string& path) {
 }  // namespace
 
 Result<BspOctree> read_bso(const std::string& path, const Context& context) try {
-    Result<io::InputStream> stream = io::InputStream::open(path);
+    Result<io::InputStream> stream = io::InputStream::open(path, context);
     if (!stream) return in_file(std::move(stream).error(), path);
     Result<BspOctree> octree = decode(
         [&](std::span<std::uint8_t> room) { return stream->read(std::as_writable_bytes(room), context); },
@@ -30,7 +30,7 @@ Result<BspOctree> read_bso(const std::string& path, const Context& context) try 
 }
 
 Result<io::WriteReport> write_bso(const std::string& path, const BspOctree& octree, const Context& context) {
-    Result<io::Output> output = io::Output::to_file(path);
+    Result<io::Output> output = io::Output::to_file(path, context);
     if (!output) return output.error();
     encode(octree, [&](std::span<const std::uint8_t> bytes) { output->append(std::as_bytes(bytes)); });
     if (context.cancelled()) return Context::cancelled_error();

@@ -181,7 +181,7 @@ Result<WriteReport> write_abaqus(const std::string& path, const mesh::HexMesh& m
         return Error{ErrorCode::unsupported,
                      "constraints of a mesh balanced by faces alone are chained; balance it by edge",
                      {}};
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     output->append("** Octree mesh with tied hanging nodes\n");
     write_nodes(*output, mesh);

@@ -71,7 +71,7 @@ Result<WriteReport> write_columns(const std::string& path, std::span<const Colum
                                   const WriteOptions& options, const Context& context) {
     std::string format = options.format;
     if (format.empty()) format = path == "-" ? "csv" : extension_of(path);
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     Result<WriteReport> report = write_to(*output, columns, format);
     if (!report) {

@@ -118,7 +118,7 @@ Result<WriteReport> write_gmsh(const std::string& path, const mesh::HexMesh& mes
                      "Gmsh files cannot tie hanging nodes, of which there are " +
                          std::to_string(mesh.hanging_nodes()) + "; ask for a conforming mesh",
                      {}};
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     Box3 bounds;
     for (mesh::NodeIndex node = 0; node < mesh.node_count(); ++node) bounds.add(mesh.position(node));

@@ -92,7 +92,7 @@ Result<WriteReport> write_vtu(const std::string& path, const mesh::HexMesh& mesh
                               std::span<const CellData> more, const Context& context) {
     for (const CellData& data : more)
         OCTAVO_CHECK(data.values.size() == mesh.cell_count(), "cell data has a value for each cell");
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     VtkArrays arrays;
     std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" ";

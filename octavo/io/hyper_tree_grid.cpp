@@ -124,7 +124,7 @@ void write_grid(Output& output, const octree::Octree& octree, const LeafChoice& 
 
 Result<WriteReport> write_hyper_tree_grid(const std::string& path, const octree::Octree& octree,
                                           const LeafChoice& choice, const Context& context) {
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     write_grid(*output, octree, choice);
     WriteReport report;

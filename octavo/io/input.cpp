@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t read_step = std::size_t{1} << 24;
 
 Result<ByteBlock> read_all(const std::string& path, const Context& context) {
-    Result<InputStream> stream = InputStream::open(path);
+    Result<InputStream> stream = InputStream::open(path, context);
     if (!stream) return std::move(stream).error();
     ByteBlock block(stream->expected_size() + 1);  // a guess, but for the byte that finds the end
     std::size_t filled = 0;

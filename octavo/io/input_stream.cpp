@@ -33,12 +33,12 @@ Beginning& stdin_beginning() {
 
 }  // namespace
 
-Bytes beginning_of_stdin() {
+Bytes beginning_of_stdin(const Context& context) {
     Beginning& beginning = stdin_beginning();
     while (!beginning.is_read && beginning.size < beginning.bytes.size()) {
         const ssize_t got = ::read(STDIN_FILENO, beginning.bytes.data() + beginning.size,
                                    beginning.bytes.size() - beginning.size);
-        if (got < 0 && errno == EINTR) continue;
+        if (got < 0 && errno == EINTR && !context.cancelled()) continue;
         // An error is told to who reads the rest.
         if (got <= 0) break;
         beginning.size += static_cast<std::size_t>(got);
@@ -47,9 +47,13 @@ Bytes beginning_of_stdin() {
     return {beginning.bytes.data(), beginning.size};
 }
 
-Result<InputStream> InputStream::open(const std::string& path) {
+Result<InputStream> InputStream::open(const std::string& path, const Context& context) {
     if (path == "-") return InputStream(STDIN_FILENO, 0);
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    int descriptor = -1;
+    do {
+        descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    } while (descriptor < 0 && errno == EINTR && !context.cancelled());
+    if (descriptor < 0 && context.cancelled()) return Context::cancelled_error();
     if (descriptor < 0) return system_error("cannot be opened");
     InputStream stream(descriptor, 0);
     struct stat status {};

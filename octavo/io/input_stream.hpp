@@ -15,8 +15,9 @@ namespace octavo::io {
 
 class InputStream {
   public:
-    /// Opens the file `path`, or standard input when it is "-". Error: io, with the system's reason.
-    static Result<InputStream> open(const std::string& path);
+    /// Opens the file `path`, or standard input when it is "-". Of a pipe this waits for a writer. Errors:
+    /// io, with the system's reason; cancelled.
+    static Result<InputStream> open(const std::string& path, const Context& context = {});
 
     InputStream(InputStream&& other) noexcept;
     InputStream& operator=(InputStream&&) = delete;

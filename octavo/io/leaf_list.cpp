@@ -8,7 +8,7 @@ namespace octavo::io {
 
 Result<WriteReport> write_leaf_list(const std::string& path, const mesh::HexMesh& mesh,
                                     const Context& context) {
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     const Vec3 origin = mesh.lattice.to_world({0, 0, 0});
     output->append("# octavo leaf list 1\n# origin");

@@ -106,7 +106,7 @@ Result<WriteReport> write_mfem(const std::string& path, const mesh::HexMesh& mes
                          "or keep the "
                          "cells outside",
                      {}};
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     const bool hangs = mesh.hanging_nodes() > 0;
     output->append(hangs ? "MFEM mesh v1.1\n" : "MFEM mesh v1.0\n");

@@ -31,7 +31,7 @@ Result<octree::Octree> read_octree(const std::string& path, const Context& conte
 
 Result<WriteReport> write_octree(const std::string& path, const octree::Octree& octree,
                                  const Context& context) {
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     const std::vector<std::uint8_t> bytes = octree::encode(octree);
     output->append(Bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()));

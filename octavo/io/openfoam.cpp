@@ -4,13 +4,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <string_view>
 #include <system_error>
-#include <utility>
-
-#include <unistd.h>
+#include <vector>
 
 #include <octavo/io/openfoam.hpp>
+#include <octavo/io/openfoam_case.hpp>
 #include <octavo/io/output.hpp>
+#include <octavo/io/part_folder.hpp>
 #include <octavo/mesh/material_names.hpp>
 
 namespace octavo::io {
@@ -30,12 +31,16 @@ std::map<std::string, std::string> words_of(const mesh::PolyhedralMesh& mesh) {
     return word_of;
 }
 
-void begin(Output& output, const char* type, const char* object, const std::string& note = {}) {
+struct Location {
+    std::string_view folder = "constant/polyMesh", note = "";
+};
+
+void begin(Output& output, std::string_view type, std::string_view object, const Location& location = {}) {
     output.append("FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       ");
     output.append(type);
     output.append(";\n");
-    if (!note.empty()) output.append("    note        \"" + note + "\";\n");
-    output.append("    location    \"constant/polyMesh\";\n    object      ");
+    if (!location.note.empty()) output.append("    note        \"" + std::string(location.note) + "\";\n");
+    output.append("    location    \"" + std::string(location.folder) + "\";\n    object      ");
     output.append(object);
     output.append(";\n}\n\n");
 }
@@ -87,7 +92,7 @@ void write_faces(Output& output, const mesh::PolyhedralMesh& mesh) {
 
 void write_labels(Output& output, const char* object, const std::vector<std::uint32_t>& labels,
                   const std::string& note) {
-    begin(output, "labelList", object, note);
+    begin(output, "labelList", object, {.note = note});
     write_list(output, labels, [&](std::uint32_t label) { output.append_number(std::uint64_t{label}); });
 }
 
@@ -119,61 +124,67 @@ void write_levels(Output& output, const mesh::PolyhedralMesh& mesh) {
                [&](int level) { output.append_number(static_cast<std::uint64_t>(level)); });
 }
 
-Error trouble(const fs::path& path, const std::error_code& code) {
-    Place place;
-    place.file = path.string();
-    return {ErrorCode::io, "cannot be written: " + code.message(), std::move(place)};
+struct File {
+    const char* name;
+    std::function<void(Output&)> write;
+};
+
+/// The files of a mesh, as its folder has them.
+std::vector<File> files_of(const mesh::PolyhedralMesh& mesh) {
+    std::vector<File> files{
+        {"points", [&](Output& output) { write_points(output, mesh); }},
+        {"faces", [&](Output& output) { write_faces(output, mesh); }},
+        {"owner", [&](Output& output) { write_labels(output, "owner", mesh.owner, note_of(mesh)); }},
+        {"neighbour",
+         [&](Output& output) { write_labels(output, "neighbour", mesh.neighbour, note_of(mesh)); }},
+        {"boundary", [&](Output& output) { write_boundary(output, mesh); }},
+        {"cellZones", [&](Output& output) { write_zones(output, mesh); }}};
+    if (mesh.cell_level.size() == mesh.cells)
+        files.push_back({"cellLevel", [&](Output& output) { write_levels(output, mesh); }});
+    return files;
 }
 
-/// A folder that is written to, with those on the way to it. Unless it is moved to its place it is removed, and those that
-/// were made for it.
-class PartFolder {
-  public:
-    explicit PartFolder(fs::path path) : path_(std::move(path)) {
-        std::error_code ignored;
-        for (fs::path above = path_.parent_path(); !above.empty() && !fs::exists(above, ignored);
-             above = above.parent_path())
-            made_.push_back(above);
-    }
-    PartFolder(const PartFolder&) = delete;
-    PartFolder& operator=(const PartFolder&) = delete;
-    ~PartFolder() {
-        if (is_moved_) return;
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-        for (const fs::path& folder : made_)
-            fs::remove(folder, ignored);  // fails where others wrote meanwhile
-    }
+/// Whether a mesh has such a file, packed or not: those of another mesh must go.
+bool is_of_mesh(std::string_view name) {
+    if (name.ends_with(".gz")) name.remove_suffix(3);
+    constexpr std::array<std::string_view, 7> names{"points",   "faces",     "owner",    "neighbour",
+                                                    "boundary", "cellZones", "cellLevel"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
 
-    const fs::path& path() const { return path_; }
-    std::error_code make() const {
-        std::error_code code;
-        fs::create_directories(path_, code);
-        return code;
-    }
-    /// What is at the place stays whole until the folder is there instead.
-    std::error_code move_to(const fs::path& place) {
-        std::error_code code, ignored;
-        fs::path old = path_;
-        old += ".old";
-        const bool replaces = fs::exists(fs::symlink_status(place, ignored));
-        if (replaces) fs::rename(place, old, code);
-        if (code) return code;
-        fs::rename(path_, place, code);
-        is_moved_ = !code;
-        if (!replaces) return code;
-        if (code)
-            fs::rename(old, place, ignored);
-        else
-            fs::remove_all(old, ignored);
-        return code;
-    }
+Status write_file(const fs::path& path, const std::function<void(Output&)>& write, WriteReport& report,
+                  const Context& context) {
+    Result<Output> output = Output::to_file(path.string(), context);
+    if (!output) return std::move(output).error();
+    write(*output);
+    report.bytes += output->size();
+    if (context.cancelled()) return Context::cancelled_error();
+    return output->commit();
+}
 
-  private:
-    fs::path path_;
-    std::vector<fs::path> made_;  ///< from the innermost
-    bool is_moved_ = false;
-};
+std::string warning_of(const std::vector<std::string>& kept, const fs::path& place) {
+    std::string names;
+    for (const std::string& name : kept) names += (names.empty() ? "" : ", ") + name;
+    return place.string() + " keeps what others put there: " + names + "; it may be of another mesh";
+}
+
+/// Those that the case does not have.
+Status write_dictionaries(const fs::path& system, PartFolder& part, WriteReport& report,
+                          const Context& context) {
+    if (Status made = part.make_folder(system); !made) return made;
+    for (const OpenfoamDictionary& dictionary : openfoam_dictionaries()) {
+        const fs::path path = system / dictionary.name;
+        std::error_code ignored;
+        if (fs::exists(fs::symlink_status(path, ignored))) continue;
+        const auto write = [&](Output& output) {
+            begin(output, "dictionary", dictionary.name, {.folder = "system"});
+            output.append(dictionary.content);
+        };
+        if (Status written = write_file(path, write, report, context); !written) return written;
+        part.made(path);
+    }
+    return Done{};
+}
 
 }  // namespace
 
@@ -182,38 +193,19 @@ Result<WriteReport> write_openfoam(const std::string& path, const mesh::Polyhedr
     if (path == "-")
         return Error{
             ErrorCode::unsupported, "an OpenFOAM mesh is a folder and cannot go to standard output", {}};
-    const fs::path constant = fs::path(path) / "constant", final = constant / "polyMesh";
-    PartFolder part(constant / ("polyMesh." + std::to_string(::getpid()) + ".part"));
-    if (const std::error_code code = part.make()) return trouble(part.path(), code);
-
+    const fs::path place = fs::path(path) / "constant" / "polyMesh";
+    PartFolder part(place);
+    if (Status made = part.make(); !made) return std::move(made).error();
     WriteReport report;
     report.format = "openfoam";
-    const std::string note = note_of(mesh);
-    const std::array<std::pair<const char*, std::function<void(Output&)>>, 7> files{{
-        {"points", [&](Output& output) { write_points(output, mesh); }},
-        {"faces", [&](Output& output) { write_faces(output, mesh); }},
-        {"owner", [&](Output& output) { write_labels(output, "owner", mesh.owner, note); }},
-        {"neighbour", [&](Output& output) { write_labels(output, "neighbour", mesh.neighbour, note); }},
-        {"boundary", [&](Output& output) { write_boundary(output, mesh); }},
-        {"cellZones", [&](Output& output) { write_zones(output, mesh); }},
-        {"cellLevel", [&](Output& output) { write_levels(output, mesh); }},
-    }};
-    for (const auto& [name, write] : files) {
-        const bool has_levels = mesh.cell_level.size() == mesh.cells;
-        if (!has_levels && std::string_view(name) == "cellLevel") continue;
-        Result<Output> output = Output::to_file((part.path() / name).string());
-        Status status = Done{};
-        if (output) {
-            write(*output);
-            report.bytes += output->size();
-            status = output->commit();
-        } else {
-            status = output.error();
-        }
-        if (context.cancelled()) status = Context::cancelled_error();
-        if (!status) return status.error();
-    }
-    if (const std::error_code code = part.move_to(final)) return trouble(final, code);
+    for (const File& file : files_of(mesh))
+        if (Status written = write_file(part.path() / file.name, file.write, report, context); !written)
+            return std::move(written).error();
+    if (Status written = write_dictionaries(fs::path(path) / "system", part, report, context); !written)
+        return std::move(written).error();
+    const Result<std::vector<std::string>> kept = part.commit(is_of_mesh);
+    if (!kept) return kept.error();
+    if (!kept->empty()) report.warnings.push_back(warning_of(*kept, place));
     return report;
 }
 

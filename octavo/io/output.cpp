@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include <fcntl.h>
@@ -14,20 +14,39 @@
 namespace octavo::io {
 namespace {
 
-/// What a symbolic link points at, so that renaming replaces the file and not the link.
-std::string resolved(const std::string& path) {
-    char* const real = ::realpath(path.c_str(), nullptr);
-    if (!real) return path;
-    std::string result = real;
-    std::free(real);
-    return result;
+namespace fs = std::filesystem;
+
+/// What a symbolic link leads to, also where nothing is there yet, so that renaming replaces the file and not the link.
+Result<fs::path> resolved(fs::path path) {
+    constexpr int most_links = 40;  // as many as Linux follows
+    std::error_code trouble;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(path, trouble)); ++links) {
+        if (links == most_links)
+            return Error{ErrorCode::io, "cannot be written: links lead round in a circle", {}};
+        const fs::path target = fs::read_symlink(path, trouble);
+        if (trouble) break;
+        path = path.parent_path() / target;
+    }
+    return path;
+}
+
+/// The name with `ending`, shortened where file systems would not take it: 255 bytes are what they have in common.
+fs::path with_ending(const fs::path& path, const std::string& ending) {
+    constexpr std::size_t longest = 255;
+    std::string name = path.filename().string();
+    std::size_t kept = std::min(name.size(), longest - ending.size());
+    // Not within a character of UTF-8.
+    while (kept < name.size() && kept > 0 && (static_cast<unsigned char>(name[kept]) & 0xc0) == 0x80) --kept;
+    name.resize(kept);
+    return path.parent_path() / (name + ending);
 }
 
 /// Creates a new file beside `path` and returns its descriptor and name. The name is tried, not drawn, so
 /// that the system applies the user's mask of permissions to it.
-std::pair<int, std::string> create_beside(const std::string& path) {
+std::pair<int, std::string> create_beside(const fs::path& path) {
     for (int attempt = 0;; ++attempt) {
-        std::string name = path + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
+        const std::string ending = "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
+        std::string name = with_ending(path, ending).string();
         const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor >= 0 || errno != EEXIST || attempt == 1000) return {descriptor, std::move(name)};
     }
@@ -41,9 +60,10 @@ Error file_error(const std::string& path, const std::string& sentence) {
 
 }  // namespace
 
-Result<Output> Output::to_file(const std::string& path) {
+Result<Output> Output::to_file(const std::string& path, const Context& context) {
     Output output;
     output.path_ = path;
+    output.cancel_ = context.cancel;
     if (path == "-") {
         output.descriptor_ = ::dup(STDOUT_FILENO);
         if (output.descriptor_ < 0)
@@ -54,10 +74,16 @@ Result<Output> Output::to_file(const std::string& path) {
     const bool exists = ::stat(path.c_str(), &status) == 0;
     if (exists && S_ISDIR(status.st_mode)) return file_error(path, "is a folder, not a file");
     if (exists && !S_ISREG(status.st_mode)) {
-        output.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+        // Of a pipe this waits for a reader; a signal that asks to stop interrupts it.
+        do {
+            output.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+        } while (output.descriptor_ < 0 && errno == EINTR && !context.cancelled());
+        if (output.descriptor_ < 0 && context.cancelled()) return Context::cancelled_error();
     } else {
-        output.final_path_ = resolved(path);
-        auto [descriptor, name] = create_beside(output.final_path_);
+        const Result<fs::path> target = resolved(path);
+        if (!target) return file_error(path, target.error().sentence);
+        output.final_path_ = target->string();
+        auto [descriptor, name] = create_beside(*target);
         output.descriptor_ = descriptor;
         if (descriptor >= 0) output.temporary_path_ = std::move(name);
         // Replacing keeps the permissions; where the system refuses that, the new file's own are good too.
@@ -76,7 +102,8 @@ Output::Output(Output&& other) noexcept
       path_(std::move(other.path_)),
       final_path_(std::move(other.final_path_)),
       temporary_path_(std::exchange(other.temporary_path_, {})),
-      trouble_(std::move(other.trouble_)) {}
+      trouble_(std::move(other.trouble_)),
+      cancel_(other.cancel_) {}
 
 Output::~Output() {
     if (descriptor_ >= 0) ::close(descriptor_);
@@ -103,7 +130,7 @@ void Output::flush() {
         return;
     }
     const char* p = buffer_.data();
-    while (filled_ > 0 && trouble_.empty()) {
+    while (filled_ > 0 && trouble_.empty() && !is_cancelled()) {
         const ssize_t written = ::write(descriptor_, p, filled_);
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) {
@@ -120,6 +147,7 @@ void Output::flush() {
 Status Output::commit() {
     if (descriptor_ < 0) return Done{};
     flush();
+    if (is_cancelled()) return Context::cancelled_error();
     if (::close(std::exchange(descriptor_, -1)) != 0) remember("cannot be written");
     if (trouble_.empty() && !temporary_path_.empty()) {
         if (::rename(temporary_path_.c_str(), final_path_.c_str()) == 0) {

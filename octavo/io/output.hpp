@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -8,19 +9,21 @@
 #include <vector>
 
 #include <octavo/base/bytes.hpp>
+#include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
 #include <octavo/io/number.hpp>
 
 // Where writers put their bytes: a file, standard output, or memory. A file is written under a temporary name
 // in its own folder and renamed on commit, so that nobody ever sees half of it and a failure leaves the old
-// one alone. Pipes and devices are written directly. Trouble on the way is remembered and told by commit.
+// one alone. Pipes and devices are written directly. Trouble on the way is remembered and told by commit. A write that
+// waits, for whoever reads a pipe, ends when a signal interrupts it and the Context is cancelled.
 
 namespace octavo::io {
 
 class Output {
   public:
-    /// Opens the file `path` for writing, or standard output when it is "-".
-    static Result<Output> to_file(const std::string& path);
+    /// Opens the file `path` for writing, or standard output when it is "-". Errors: io, cancelled.
+    static Result<Output> to_file(const std::string& path, const Context& context = {});
     static Output to_memory() { return {}; }
 
     Output(Output&& other) noexcept;
@@ -40,7 +43,7 @@ class Output {
     }
     std::uint64_t size() const { return flushed_ + filled_; }
 
-    /// Writes what is left and gives the file its name. Only once.
+    /// Writes what is left and gives the file its name. Only once. Errors: io, cancelled.
     Status commit();
     /// What was written to memory.
     std::vector<std::byte> take_memory() &&;
@@ -54,6 +57,7 @@ class Output {
     void end_at(const char* end) { filled_ = static_cast<std::size_t>(end - buffer_.data()); }
     void flush();
     void remember(const char* what);
+    bool is_cancelled() const { return cancel_ && cancel_->load(std::memory_order_relaxed); }
 
     // Larger writes gain nothing; smaller ones cost system calls.
     static constexpr std::size_t step = std::size_t{1} << 16;
@@ -66,6 +70,7 @@ class Output {
     std::string final_path_;      ///< what the temporary file becomes
     std::string temporary_path_;  ///< empty when written directly
     std::string trouble_;         ///< the first failure
+    const std::atomic<bool>* cancel_ = nullptr;
 };
 
 }  // namespace octavo::io

@@ -76,7 +76,7 @@ Result<WriteReport> write_p8est(const std::string& path, const mesh::HexMesh& me
     const std::vector<CellKey> leaves =
         octree::balance(octree::complete(mesh.cells),
                         mesh.constraints_are_direct ? octree::Contact::edge : octree::Contact::face);
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     append_cube(*output, mesh.lattice);
     constexpr std::uint64_t has_data = 1, processes = 1;

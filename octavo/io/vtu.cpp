@@ -101,7 +101,7 @@ void write_grid(Output& output, const Grid& grid, const exact::Lattice& lattice)
 
 Result<WriteReport> write_vtu(const std::string& path, const octree::Octree& octree, const LeafChoice& choice,
                               const Context& context) {
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     const Grid grid = grid_of(octree, choice);
     if (context.cancelled()) return Context::cancelled_error();

@@ -37,7 +37,7 @@ Result<WriteReport> write_mesh(const std::string& path, const mesh::Mesh& mesh, 
     const std::string name = !options.format.empty() || path == "-" ? options.format : extension_of(path);
     const Format* const format = mesh_format_named(name);
     if (!format) return in_file(unknown_format(name), path);
-    Result<Output> output = Output::to_file(path);
+    Result<Output> output = Output::to_file(path, context);
     if (!output) return output.error();
     Result<WriteReport> report = write_to(*output, *format, mesh, options);
     if (!report) return in_file(std::move(report).error(), path);

@@ -140,8 +140,8 @@ Status paint_tile(const Drawing& drawing, int left, int top, Image& image) {
 
 }  // namespace
 
-Status write_pdf(const std::string& path, const Drawing& drawing) {
-    Result<io::Output> output = io::Output::to_file(path);
+Status write_pdf(const std::string& path, const Drawing& drawing, const Context& context) {
+    Result<io::Output> output = io::Output::to_file(path, context);
     if (!output) return std::move(output).error();
     constexpr double points_of_pixel = 0.75;
     const Surface surface(

@@ -44,8 +44,8 @@ cairo_status_t append(void* output, const unsigned char* bytes, unsigned int siz
 
 }  // namespace
 
-Status write_png(const std::string& path, const Image& image) {
-    Result<io::Output> output = io::Output::to_file(path);
+Status write_png(const std::string& path, const Image& image, const Context& context) {
+    Result<io::Output> output = io::Output::to_file(path, context);
     if (!output) return std::move(output).error();
     const Surface surface = surface_of(image);
     const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &*output);

@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include <octavo/base/check.hpp>
 #include <octavo/mesh/hex_sides.hpp>
 #include <octavo/mesh/materials.hpp>
+#include <octavo/render/color_scale.hpp>
 #include <octavo/render/scene.hpp>
 
 namespace octavo::render {
 namespace {
-
-/// `share` of the way from the least to the greatest value.
-Color color_at(double share) {
-    const double place = std::clamp(share, 0.0, 1.0) * (palette::values.size() - 1);
-    const auto below = std::min(static_cast<std::size_t>(place), palette::values.size() - 2);
-    return mix(palette::values[below], palette::values[below + 1],
-               static_cast<float>(place - static_cast<double>(below)));
-}
 
 std::vector<Color> colors_of_cells(const mesh::HexMesh& mesh, std::span<const double> values) {
     std::vector<Color> colors;
@@ -25,7 +17,7 @@ std::vector<Color> colors_of_cells(const mesh::HexMesh& mesh, std::span<const do
         OCTAVO_CHECK(values.size() == mesh.cell_count(), "one value for each cell");
         const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
         const double range = *greatest > *least ? *greatest - *least : 1;
-        for (const double value : values) colors.push_back(color_at((value - *least) / range));
+        for (const double value : values) colors.push_back(color_of_value((value - *least) / range));
         return colors;
     }
     const mesh::Materials materials = mesh::materials_of(mesh);

@@ -103,8 +103,8 @@ void write_strokes(Writer& writer, const std::vector<Strokes>& groups) {
 
 }  // namespace
 
-Status write_svg(const std::string& path, const Drawing& drawing) {
-    Result<io::Output> output = io::Output::to_file(path);
+Status write_svg(const std::string& path, const Drawing& drawing, const Context& context) {
+    Result<io::Output> output = io::Output::to_file(path, context);
     if (!output) return std::move(output).error();
     Writer writer(*output);
     writer.text("<svg xmlns=\"http://www.w3.org/2000/svg\"");

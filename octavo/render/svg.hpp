@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
 #include <octavo/render/drawing.hpp>
 
@@ -12,7 +13,7 @@
 namespace octavo::render {
 
 /// Writes to the file `path`, which appears whole or not at all, or to standard output when it is "-". The same drawing
-/// gives the same bytes. Errors: io.
-Status write_svg(const std::string& path, const Drawing& drawing);
+/// gives the same bytes. Errors: io, cancelled.
+Status write_svg(const std::string& path, const Drawing& drawing, const Context& context = {});
 
 }  // namespace octavo::render

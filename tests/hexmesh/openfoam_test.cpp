@@ -76,18 +76,8 @@ TEST(ToPolyhedra, ClosesEveryCellAndKeepsTheVolume) {
     EXPECT_EQ(mesh.zones.size(), 3u);
 }
 
-/// What OpenFOAM's checkMesh says about a case.
+/// What OpenFOAM's checkMesh says about a case, as it was written.
 std::string check_mesh(const Folder& folder) {
-    fs::create_directory(folder / "system");
-    std::ofstream(folder / "system/controlDict")
-        << "FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }\n"
-           "application checkMesh; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1;\n"
-           "writeControl timeStep; writeInterval 1;\n";
-    for (const char* name : {"fvSchemes", "fvSolution"})
-        std::ofstream(folder / "system" / name)
-            << "FoamFile { version 2.0; format ascii; class dictionary; object " << name << "; }\n"
-            << "ddtSchemes {} gradSchemes {} divSchemes {} laplacianSchemes {} interpolationSchemes {} "
-               "snGradSchemes {}\n";
     const std::string command =
         "WM_PROJECT_DIR=\"${WM_PROJECT_DIR:-/usr/share/openfoam}\" checkMesh -case '" + folder.string() +
         "' -allTopology > '" + (folder / "log").string() + "' 2>&1";
@@ -128,18 +118,30 @@ TEST(WriteOpenFoam, LeavesNothingBehindWhenItIsCancelled) {
     EXPECT_FALSE(fs::exists(folder / "new"));
 }
 
-TEST(WriteOpenFoam, ReplacesAnEarlierMeshAsAWhole) {
+TEST(WriteOpenFoam, ReplacesAnEarlierMeshAndKeepsWhatOthersPutThere) {
     const Folder folder;
     fs::create_directories(folder / "constant/polyMesh/sets");
-    std::ofstream(folder / "constant/polyMesh/stale") << "old";
-    std::ofstream(folder / "constant/transportProperties") << "kept";
+    fs::create_directories(folder / "system");
+    for (const char* mine : {"constant/polyMesh/blockMeshDict", "constant/transportProperties",
+                             "system/controlDict", "constant/polyMesh/sets/walls"})
+        std::ofstream(folder / mine) << "mine";
+    for (const char* old : {"owner", "points.gz", "cellLevel"})
+        std::ofstream(folder / "constant/polyMesh" / old) << "old";
     const mesh::PolyhedralMesh mesh = to_polyhedra(graded_mesh().mesh);
     const std::atomic<bool> cancel = true;
     EXPECT_FALSE(io::write_openfoam(folder.string(), mesh, {.on_progress = {}, .cancel = &cancel}));
-    EXPECT_TRUE(fs::exists(folder / "constant/polyMesh/stale")) << "until there is another";
-    ASSERT_TRUE(io::write_openfoam(folder.string(), mesh));
-    EXPECT_TRUE(fs::exists(folder / "constant/polyMesh/owner"));
-    EXPECT_FALSE(fs::exists(folder / "constant/polyMesh/stale"));
+    EXPECT_EQ(text_of(folder / "constant/polyMesh/owner"), "old") << "until there is another";
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "system"), {}), 1);
+    const Result<io::WriteReport> written = io::write_openfoam(folder.string(), mesh);
+    ASSERT_TRUE(written);
+    EXPECT_NE(text_of(folder / "constant/polyMesh/owner"), "old");
+    EXPECT_FALSE(fs::exists(folder / "constant/polyMesh/points.gz"));
+    for (const char* mine : {"constant/polyMesh/blockMeshDict", "constant/transportProperties",
+                             "system/controlDict", "constant/polyMesh/sets/walls"})
+        EXPECT_EQ(text_of(folder / mine), "mine") << mine;
+    ASSERT_EQ(written->warnings.size(), 1u);
+    EXPECT_NE(written->warnings[0].find("blockMeshDict, sets"), std::string::npos) << written->warnings[0];
+    EXPECT_TRUE(fs::exists(folder / "system/fvSchemes"));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "constant"), {}), 2) << "nothing is left over";
     // What is there may be a link, which is replaced, not followed.
     fs::rename(folder / "constant/polyMesh", folder / "elsewhere");

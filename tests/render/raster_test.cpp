@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <octavo/hexmesh/build.hpp>
+#include <octavo/render/color_scale.hpp>
+#include <octavo/render/hex_mesh_picture.hpp>
 #include <octavo/render/raster.hpp>
 
 namespace octavo::render {
@@ -26,6 +29,49 @@ Image draw_from_front(const Scene& scene, DrawOptions options) {
     Result<Camera> camera = Camera::look_at(scene.bounds(), view, options.width, options.height);
     Result<Image> image = draw(scene, *camera, options);
     return std::move(*image);
+}
+
+/// Where something is drawn in the columns from `begin` to `end`.
+Box3 drawn_part(const Image& image, int begin, int end) {
+    Box3 box;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = begin; x < end; ++x)
+            if (!(image.at(x, y) == palette::paper)) box.add(Vec3{x + 0.5, y + 0.5, 0});
+    return box;
+}
+
+TEST(HexMeshPicture, HasTheMeshInItsMiddleAndAScaleForValues) {
+    // Most of its bounding box is empty.
+    mesh::Mesh wedge;
+    wedge.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    wedge.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+    const Result<hexmesh::Built> built =
+        hexmesh::build(std::span(&wedge, 1), {.level = 4, .keep = hexmesh::Keep::half});
+    ASSERT_TRUE(built);
+    constexpr int width = 600, height = 300;
+    const Result<Image> plain = picture_of(built->mesh, {.width = width, .height = height});
+    ASSERT_TRUE(plain);
+    const Box3 mesh = drawn_part(*plain, 0, width);
+    EXPECT_NEAR(mesh.low.x + mesh.high.x, width, 4);
+    EXPECT_NEAR(mesh.low.y + mesh.high.y, height, 4);
+
+    std::vector<double> values(built->mesh.cell_count(), -2.5e6);
+    values.back() = 1e7;
+    const Result<Image> scaled =
+        picture_of(built->mesh, {.values = values, .width = width, .height = height});
+    ASSERT_TRUE(scaled);
+    const int left = width - color_scale_width;
+    const Box3 moved = drawn_part(*scaled, 0, left);
+    EXPECT_NEAR(moved.low.x + moved.high.x, left, 4);
+    const Box3 scale = drawn_part(*scaled, left, width);
+    EXPECT_GT(scale.extents().y, 0.7 * height);
+    EXPECT_GT(scale.extents().x, 100) << "numbers are beside the bar";
+    EXPECT_LT(scale.high.x, width - 1) << "and end before the picture does";
+    const auto near = [](Color a, Color b) {
+        return std::fabs(a.red - b.red) + std::fabs(a.green - b.green) + std::fabs(a.blue - b.blue) < 0.1F;
+    };
+    EXPECT_TRUE(near(scaled->at(left + 32, height - height / 8 - 4), palette::values.front()));
+    EXPECT_TRUE(near(scaled->at(left + 32, height / 8 + 4), palette::values.back()));
 }
 
 TEST(Draw, TheNearerFacetHidesTheFartherInAnyOrder) {
