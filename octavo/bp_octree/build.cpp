@@ -291,6 +291,14 @@ mesh::LatticeMesh without_unused(mesh::LatticeMesh mesh) {
     return mesh;
 }
 
+/// The volume of every envelope is at most that of the root cell.
+bool has_finite_volumes(const BpOctree& tree) {
+    double root = 1;
+    for (int axis = 0; axis < 3; ++axis)
+        root *= std::ldexp(tree.frame.side(axis, 0) * tree.mesh.lattice.unit(), -1);
+    return std::isfinite(root) && std::isfinite(tree.solid_volume);
+}
+
 }  // namespace
 
 Result<BpOctree> build(const mesh::LatticeMesh& mesh, const BuildOptions& options, const Context& context) {
@@ -306,6 +314,8 @@ Result<BpOctree> build(const mesh::LatticeMesh& mesh, const BuildOptions& option
         tree.solid_volume = static_cast<double>(mesh::exact_volume6(tree.mesh)) / 6 * unit * unit * unit;
     }
     tree.frame = Frame::around(tree.mesh.points, options.depth);
+    if (!has_finite_volumes(tree))
+        return Error{ErrorCode::limit, "has a volume beyond what a double can hold; scale it down", {}};
     if (Status built = Builder(tree, options, context).run(); !built) return built.error();
     if (options.planes == PlaneChoice::k_medoids)
         if (Status chosen = choose_by_k_medoids(tree, options.k_medoids, context); !chosen)

@@ -277,6 +277,7 @@ Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options
     sizing.refine_at_walls = false;  // cells of the grid are as small as `precision` everywhere
     const Box3 content = mesh::bounds_of_facets(solids);
     if (content.empty()) return build(solids, sizing, context);  // which says what is wrong
+    if (Status fits = check_size(content); !fits) return std::move(fits).error();
     const Result<exact::Lattice> lattice = grid_lattice(content);
     if (!lattice) return lattice.error();
     const Result<SizeField> sizes = SizeField::from(sizing, solids.size(), content, *lattice);

@@ -238,9 +238,11 @@ Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, c
                      "a mesh balanced at faces alone cannot be fitted: some nodes hang on nodes that hang "
                      "themselves; balance it at edges or corners",
                      {}};
+    const Box3 bounds = mesh::bounds_of_facets(solids);
+    if (Status fits = check_size(bounds); !fits) return std::move(fits).error();
     const Result<SeparatingSurfaces> surfaces = SeparatingSurfaces::build(solids, mesh, context);
     if (!surfaces) return surfaces.error();
-    const Vec3 extents = mesh::bounds_of_facets(solids).extents();
+    const Vec3 extents = bounds.extents();
     const double small = 1e-6 * std::max({extents.x, extents.y, extents.z});
 
     context.report("fit", 0);

@@ -50,7 +50,7 @@ struct FitReport {
 
 /// Moves nodes of the mesh of these solids: sets `mesh.positions`; with a layer the mesh has more cells and is no octree any more. Empties `mesh.fractions`, which are no longer true.
 /// Open solids are closed as OpenPolicy::winding does for meshing. Errors: bad_input for a mesh
-/// without direct constraints; those of query::ClosestQuery; cancelled.
+/// without direct constraints; those of query::ClosestQuery; limit as check_size(); cancelled.
 Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, const FitOptions& options = {},
                       const Context& context = {});
 

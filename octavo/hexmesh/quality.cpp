@@ -73,6 +73,17 @@ bool is_positive_everywhere(const CellCorners& corners) { return is_positive(jac
 
 double volume_of(const CellCorners& corners) { return volume_under(jacobian_of(corners)); }
 
+Status check_size(const Box3& bounds) {
+    constexpr double least = 1e-90, most = 1e90;
+    const Vec3 extents = bounds.extents();
+    const double longest = std::max({extents.x, extents.y, extents.z});
+    if (longest >= least && longest <= most) return Done{};
+    return Error{ErrorCode::limit,
+                 "cells that fit the surface or each other are proved valid in double numbers, for models of "
+                 "1e-90 to 1e90; scale it",
+                 {}};
+}
+
 CellCorners corners_of(const mesh::HexMesh& mesh, mesh::CellIndex cell) {
     CellCorners corners;
     for (std::size_t i = 0; i < 8; ++i) corners[i] = mesh.position(mesh.corners[cell][i]);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <octavo/base/result.hpp>
 #include <octavo/mesh/hex_mesh.hpp>
 
 // How good the cells of a mesh are for a solver: the scaled Jacobian, and whether the map from the unit cube is one to
@@ -41,6 +42,10 @@ struct Quality {
     double largest_edge_ratio = 1;          ///< longest over shortest edge of one cell
     std::uint64_t not_proved_positive = 0;  ///< cells that `is_positive_everywhere` does not vouch for
 };
+
+/// Products of three lengths must be doubles, also those of cells a millionth as large. Error: limit when a model of these
+/// bounds is too large or too small for that.
+Status check_size(const Box3& bounds);
 
 CellCorners corners_of(const mesh::HexMesh& mesh, mesh::CellIndex cell);
 
