@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cell_values.hpp"
 
-#include <fstream>
+#include <algorithm>
+#include <string_view>
+
+#include <octavo/io/input.hpp>
 
 #include "numbers.hpp"
 
@@ -17,18 +20,20 @@ Error trouble(ErrorCode code, std::string sentence, const std::string& path, std
 
 }  // namespace
 
-Result<std::vector<double>> read_cell_values(const std::string& path, std::size_t count) {
-    std::ifstream file(path);
-    if (!file) return trouble(ErrorCode::io, "cannot be read", path, 0);
+Result<std::vector<double>> read_cell_values(const std::string& path, std::size_t count,
+                                             const Context& context) {
+    const Result<io::ByteBlock> block = io::read_bytes(path, context);
+    if (!block) return block.error();
     std::vector<double> values;
     std::size_t line = 0;
-    for (std::string text; std::getline(file, text);) {
+    for (std::string_view rest = octavo::text_of(block->bytes()); !rest.empty();) {
         ++line;
-        if (!text.empty() && text.back() == '\r') text.pop_back();
+        std::string_view text = rest.substr(0, rest.find('\n'));
+        rest.remove_prefix(std::min(rest.size(), text.size() + 1));
+        if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
         if (text.empty()) continue;
         const std::size_t comma = text.rfind(',');
-        const auto number =
-            parse_numbers(std::string_view(text).substr(comma == std::string::npos ? 0 : comma + 1));
+        const auto number = parse_numbers(text.substr(comma == std::string_view::npos ? 0 : comma + 1));
         if (number)
             values.push_back(number->front());
         else if (line > 1)

@@ -14,7 +14,10 @@ enum class ExitCode : int {
     bad_input = 3,  ///< an input file is
     limit = 4,      ///< a size, depth or memory limit was reached
     internal = 5,   ///< a defect of Octavo
-    interrupted = 130,
+    // 128 and the number of the signal that ended the work.
+    hung_up = 129,      ///< SIGHUP
+    interrupted = 130,  ///< Ctrl-C
+    terminated = 143,   ///< SIGTERM
 };
 
 inline ExitCode exit_code_of(ErrorCode code) {

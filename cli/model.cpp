@@ -22,6 +22,8 @@
 #include <octavo/mesh/measure.hpp>
 #include <octavo/octree/oct_format.hpp>
 
+#include "interruption.hpp"
+
 namespace octavo::cli {
 namespace {
 
@@ -92,12 +94,14 @@ std::string check_model_format(const std::string& text) {
     const std::string name = io::extension_of("." + text);
     if (io::mesh_format_named(name) || kind_of("", name) != ModelKind::mesh || io::assimp_reads(name))
         return "";
-    return fmt::format("must be {}, csg, oct, bpo, bso or a format that assimp reads, not {}",
-                       io::mesh_format_names(), text);
+    return fmt::format("must be {}, csg, oct, bpo, bso, {}, not {}", io::mesh_format_names(),
+                       fmt::join(io::assimp_formats(), ", "), text);
 }
 
 ModelKind kind_on_stdin() {
-    const Bytes begin = io::beginning_of_stdin();
+    Context context;
+    context.cancel = &interruption();
+    const Bytes begin = io::beginning_of_stdin(context);
     const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(begin.data()),
                                               begin.size());
     if (octree::looks_like_oct(bytes)) return ModelKind::octree;
@@ -151,6 +155,7 @@ Result<io::ReadMesh> read_mesh(Session& session, const Context& context, const s
     options.format = format;
     Result<io::ReadMesh> read = session.timed("read", [&] { return io::read_mesh(path, options, context); });
     if (!read) return read;
+    if (Status apart = check_files_of(session, path, read->beside); !apart) return std::move(apart).error();
     session.warn(read->warnings);
     if (!read->polygon_of_triangle.empty()) session.polygon_of_triangle[path] = read->polygon_of_triangle;
     return read;
@@ -183,7 +188,9 @@ Result<io::CsgFile> read_csg(Session& session, const Context& context, const std
                              const io::CsgReadOptions& options) {
     session.inputs.push_back(path);
     Result<io::CsgFile> file = session.timed("read", [&] { return io::read_csg(path, options, context); });
-    if (file) session.warn(file->warnings);
+    if (!file) return file;
+    if (Status apart = check_files_of(session, path, file->files); !apart) return std::move(apart).error();
+    session.warn(file->warnings);
     return file;
 }
 

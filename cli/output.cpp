@@ -17,10 +17,21 @@ std::vector<std::string> mesh_format_list() {
     return names;
 }
 
-/// Do both names lead to the same existing file? Then writing would destroy the input.
+/// Do both names lead to the same file, whether it is there yet or not?
 bool is_same_file(const std::string& a, const std::string& b) {
+    if (a == "-" || b == "-") return false;
     std::error_code ignored;
-    return a != "-" && b != "-" && std::filesystem::equivalent(a, b, ignored);
+    if (std::filesystem::equivalent(a, b, ignored)) return true;
+    const auto whole = [&](const std::string& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+    };
+    return !whole(a).empty() && whole(a) == whole(b);
+}
+
+Error would_overwrite(Session& session, const std::string& output, const std::string& what) {
+    Error error = session.usage_error(fmt::format("the output would overwrite {}; name another file", what));
+    error.place.file = output;
+    return error;
 }
 
 }  // namespace
@@ -64,17 +75,31 @@ Status check_inputs(Session& session, const std::vector<std::string>& inputs) {
     return Done{};
 }
 
+Status settle_further_output(Session& session, const std::vector<std::string>& inputs,
+                             const std::string& output) {
+    for (const std::string& input : inputs)
+        if (is_same_file(input, output)) return would_overwrite(session, output, "the input");
+    for (const std::string& other : session.outputs)
+        if (is_same_file(other, output)) return would_overwrite(session, output, "the other output");
+    session.outputs.push_back(output);
+    return Done{};
+}
+
+Status check_files_of(Session& session, const std::string& model, const std::vector<std::string>& files) {
+    for (const std::string& output : session.outputs)
+        for (const std::string& file : files)
+            if (is_same_file(file, output))
+                return would_overwrite(session, output, fmt::format("a file that {} is read from", model));
+    return Done{};
+}
+
 Result<std::string> settle_output(Session& session, const std::vector<std::string>& inputs,
                                   const std::string& output, const std::string& format,
                                   const OutputFormats& formats) {
     if (Status status = check_inputs(session, inputs); !status) return std::move(status).error();
     if (output.empty()) return std::string();
-    for (const std::string& input : inputs)
-        if (is_same_file(input, output)) {
-            Error error = session.usage_error("the output would overwrite the input; name another file");
-            error.place.file = output;
-            return error;
-        }
+    if (Status further = settle_further_output(session, inputs, output); !further)
+        return std::move(further).error();
     if (output == "-" && session.options.json)
         return session.usage_error(
             "--json prints its object on stdout, so the data cannot go there too; name a file");

@@ -40,4 +40,13 @@ Result<std::string> settle_output(Session& session, const std::vector<std::strin
 /// The part of it that concerns inputs, for verbs without an output.
 Status check_inputs(Session& session, const std::vector<std::string>& inputs);
 
+/// For a file that is written beside the output, such as a picture. Errors: usage when it is one of the inputs or the
+/// output.
+Status settle_further_output(Session& session, const std::vector<std::string>& inputs,
+                             const std::string& output);
+
+/// Files that a model refers to are inputs that the command line does not name. Error: usage when one of them would be
+/// overwritten.
+Status check_files_of(Session& session, const std::string& model, const std::vector<std::string>& files);
+
 }  // namespace octavo::cli

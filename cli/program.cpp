@@ -22,13 +22,14 @@ namespace {
 constexpr const char* footer =
     "Formats follow from the file's extension; - is stdin or stdout. Data goes to stdout, messages to "
     "stderr.\n"
-    "Meshes: stl, obj, ply, off, 3mf, poly, smesh read and written; glb, gltf, ... read through assimp.\n"
+    "Meshes: stl, obj, ply, off, 3mf, poly, smesh read and written; 3ds, amf, dae, dxf, "
+    "fbx, glb, gltf, lwo, x, x3d read through assimp.\n"
     "CSG trees of OpenSCAD: csg read. Octrees: oct read and written; vtu, htg written for ParaView.\n"
     "BP-octrees: bpo read and written. BSP-octrees: bso read and written.\n"
     "Points: csv, xyz, npy, ply read. Answers: csv, npy, ply written. Pictures: png, svg, pdf written.\n"
     "\n"
     "Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad input, 4 a limit was reached, 5 internal error, "
-    "130 interrupted.\n"
+    "130 interrupted; 129 and 143 ended by SIGHUP and SIGTERM.\n"
     "2 stands for what is wrong whatever the files hold: an unknown option, one that the formats have no use "
     "for, "
     "an output that is an input.\n"
@@ -186,7 +187,7 @@ void Program::add_common_options(Verb& verb) {
         ->group(group);
     verb.add_flag("-q,--quiet", options.quiet, "Print errors only")->group(group);
     verb.add_option("--threads", options.threads,
-                    "Threads to use; 0 is all, the result is the same for any number")
+                    "Threads to use, at most one a core; 0 is all, the result is the same for any number")
         ->check(whole_number(0, 1024))
         ->type_name("N")
         ->capture_default_str()

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "to_stderr.hpp"
+#include "standard_files.hpp"
 
 namespace octavo::cli {
 namespace {

@@ -2,27 +2,19 @@
 #include "session.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
-#include <cstdio>
 #include <cstdlib>
+#include <thread>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "file_faces.hpp"
-#include "to_stderr.hpp"
+#include "interruption.hpp"
+#include "printable.hpp"
+#include "standard_files.hpp"
 
 namespace octavo::cli {
 namespace {
-
-std::atomic<bool> interrupted{false};
-
-/// The first Ctrl-C asks the work to stop; a second one, from an impatient user, ends the program at once.
-extern "C" void on_interrupt(int) {
-    interrupted.store(true, std::memory_order_relaxed);
-    std::signal(SIGINT, SIG_DFL);
-}
 
 bool is_set(const char* variable) {
     const char* value = std::getenv(variable);
@@ -53,12 +45,13 @@ ProgressStyle style_of(const CommonOptions& options) {
 }  // namespace
 
 Context Session::context() {
-    std::signal(SIGINT, on_interrupt);
     if (!bar_)
         bar_ = std::make_unique<ProgressBar>(style_of(options), wants_color(options.color, STDERR_FILENO));
     Context context;
-    context.threads = options.threads;
-    context.cancel = &interrupted;
+    // More threads than cores are of no use, and oneTBB would say so on stderr.
+    context.threads =
+        std::min(options.threads, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+    context.cancel = &interruption();
     context.on_progress = [bar = bar_.get()](std::string_view phase, double done) { bar->show(phase, done); };
     return context;
 }
@@ -76,26 +69,27 @@ int Session::finish(Result<ExitCode> outcome) {
     if (bar_) bar_->clear();
     if (!outcome) outcome = in_words_of_users(outcome.error());
     print_messages(outcome);
-    if (options.json && !stdout_taken) {
-        print_json(outcome);
-    } else if (outcome && !stdout_taken && !options.quiet) {
-        std::fwrite(text.data(), 1, text.size(), stdout);
-    }
-    // What does not fit the buffer is written before; that it failed is remembered, flushing then succeeds.
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-        to_stderr("octavo: cannot write to stdout\n");
-        return static_cast<int>(ExitCode::bad_input);
-    }
-    return static_cast<int>(exit_code_of(outcome));
+    std::string data;
+    if (options.json && !stdout_taken)
+        data = object_of(outcome);
+    else if (outcome && !stdout_taken && !options.quiet)
+        data = printable(text, "\n\t");
+    if (to_stdout(data)) return static_cast<int>(exit_code_of(outcome));
+    to_stderr(interruption() ? "octavo: error: cancelled\n" : "octavo: cannot write to stdout\n");
+    return static_cast<int>(interruption() ? exit_code_of_interruption() : ExitCode::bad_input);
 }
 
 Error Session::in_words_of_users(Error error) const {
+    // What fails once the work was asked to stop, fails because of that: not every library knows of calls that were
+    // interrupted.
+    if (interruption()) return Context::cancelled_error();
     if (error.option) error.option = as_typed(std::move(*error.option));
     return with_faces_of_file(std::move(error), polygon_of_triangle);
 }
 
 ExitCode Session::exit_code_of(const Result<ExitCode>& outcome) const {
     if (outcome) return *outcome;
+    if (outcome.error().code == ErrorCode::cancelled) return exit_code_of_interruption();
     return usage_is_wrong_ ? ExitCode::usage : cli::exit_code_of(outcome.error().code);
 }
 
@@ -115,15 +109,15 @@ void Session::print_messages(const Result<ExitCode>& outcome) const {
     if (!options.quiet)
         for (const std::string& warning : warnings_)
             to_stderr(fmt::format("octavo: {}warning:{} {}\n", colored ? "\x1b[33m" : "",
-                                  colored ? "\x1b[0m" : "", warning));
+                                  colored ? "\x1b[0m" : "", printable(warning)));
     if (!outcome)
         to_stderr(fmt::format("octavo: {}error:{} {}\n", colored ? "\x1b[31m" : "", colored ? "\x1b[0m" : "",
-                              outcome.error().describe()));
+                              printable(outcome.error().describe())));
     if (usage_is_wrong_)
         to_stderr(fmt::format("Try: octavo {}--help\n", command.empty() ? "" : command + " "));
 }
 
-void Session::print_json(const Result<ExitCode>& outcome) const {
+std::string Session::object_of(const Result<ExitCode>& outcome) const {
     Json object = {{"octavo", OCTAVO_VERSION}, {"command", command}, {"inputs", inputs}};
     if (outcome)
         object["result"] = result;
@@ -131,9 +125,7 @@ void Session::print_json(const Result<ExitCode>& outcome) const {
         object["error"] = json_of(outcome.error());
     object["timings"] = timings_;
     object["warnings"] = warnings_;
-    const std::string dumped = object.dump(2, ' ', false, Json::error_handler_t::replace);
-    std::fwrite(dumped.data(), 1, dumped.size(), stdout);
-    std::fputc('\n', stdout);
+    return object.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace octavo::cli

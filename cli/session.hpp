@@ -42,6 +42,9 @@ class Session {
     std::string command;
     std::vector<std::string> inputs;
 
+    /// The files that it will write.
+    std::vector<std::string> outputs;
+
     /// For each mesh that was read and has polygons: the polygon of each of its triangles. The library numbers triangles;
     /// an error whose place is in such a file is told with the faces of the file.
     std::map<std::string, std::vector<std::uint32_t>> polygon_of_triangle;
@@ -78,7 +81,7 @@ class Session {
     /// An error for what is wrong with the command line itself rather than with a file: exit code 2.
     Error usage_error(std::string sentence);
 
-    /// Threads, progress and Ctrl-C, for the library.
+    /// Threads, progress and how the work is stopped, for the library.
     Context context();
 
     /// Prints result, warnings and error as the options ask, and turns them into the exit code.
@@ -90,7 +93,8 @@ class Session {
     ExitCode exit_code_of(const Result<ExitCode>& outcome) const;
     Json json_of(const Error& error) const;
     void print_messages(const Result<ExitCode>& outcome) const;
-    void print_json(const Result<ExitCode>& outcome) const;
+    /// What --json prints.
+    std::string object_of(const Result<ExitCode>& outcome) const;
 
     Json timings_ = Json::object();
     std::vector<std::string> warnings_;

@@ -77,14 +77,10 @@ Result<boolean::Evaluated> evaluate_formula(Session& session, const Context& con
 
 Result<boolean::Evaluated> evaluate_csg(Session& session, const Context& context, const EvalOptions& options,
                                         const std::string& format) {
-    session.inputs.push_back(options.expression);
-    io::CsgReadOptions reading;
-    reading.faceted = true;
-    reading.skip_unsupported = options.skip_unsupported;
     const Result<io::CsgFile> file =
-        session.timed("read", [&] { return io::read_csg(options.expression, reading, context); });
+        read_csg(session, context, options.expression,
+                 {.faceted = true, .skip_unsupported = options.skip_unsupported});
     if (!file) return file.error();
-    session.warn(file->warnings);
     return session.timed("evaluate", [&] {
         return boolean::evaluate(file->expression,
                                  options.output.evaluation(format, {2e-6, boolean::Tolerance::Of::size}),

@@ -9,8 +9,8 @@
 #include <octavo/hexmesh/conforming.hpp>
 #include <octavo/hexmesh/fit.hpp>
 #include <octavo/mesh/material_names.hpp>
+#include <octavo/render/hex_mesh_picture.hpp>
 #include <octavo/render/png.hpp>
-#include <octavo/render/raster.hpp>
 
 #include "cell_values.hpp"
 #include "hexmesh_body.hpp"
@@ -124,12 +124,13 @@ struct CellNumbers {
     std::vector<double> values, quality;
 };
 
-Result<CellNumbers> cell_numbers(Session& session, const HexmeshOptions& options, const mesh::HexMesh& mesh) {
+Result<CellNumbers> cell_numbers(Session& session, const Context& context, const HexmeshOptions& options,
+                                 const mesh::HexMesh& mesh) {
     CellNumbers numbers;
     if (options.conforming || options.fit) numbers.quality = hexmesh::scaled_jacobians(mesh);
     if (options.values.empty()) return numbers;
     session.inputs.push_back(options.values);
-    Result<std::vector<double>> values = read_cell_values(options.values, mesh.cell_count());
+    Result<std::vector<double>> values = read_cell_values(options.values, mesh.cell_count(), context);
     if (!values) return std::move(values).error();
     numbers.values = std::move(*values);
     return numbers;
@@ -150,15 +151,10 @@ Result<io::WriteReport> write(Session& session, const Context& context, HexmeshF
 
 Status draw(Session& session, const Context& context, const HexmeshOptions& options,
             const mesh::HexMesh& mesh, const CellNumbers& numbers) {
-    constexpr int width = 1200, height = 900;
-    const render::Scene scene = render::scene_of(mesh, render::HexMeshSceneOptions{.values = numbers.values});
-    const Result<render::Camera> camera = render::Camera::look_at(scene.bounds(), {}, width, height);
-    if (!camera) return camera.error();
-    const Result<render::Image> image = session.timed("draw", [&] {
-        return render::draw(scene, *camera, {.width = width, .height = height, .line_width = 0.8}, context);
-    });
+    const Result<render::Image> image =
+        session.timed("draw", [&] { return render::picture_of(mesh, {.values = numbers.values}, context); });
     if (!image) return image.error();
-    return render::write_png(options.picture, *image);
+    return render::write_png(options.picture, *image, context);
 }
 
 Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
@@ -167,6 +163,9 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     if (!options.values.empty()) read.push_back(options.values);
     const Result<HexmeshFormat> format = settle_hexmesh_output(session, read, options.output, options.to);
     if (!format) return format.error();
+    if (!options.picture.empty())
+        if (const Status apart = settle_further_output(session, read, options.picture); !apart)
+            return apart.error();
     if (options.fit && !options.output.empty() && needs_octants(*format))
         return session.usage_error(
             "--fit moves nodes, and this format has none: it is for octrees; write .vtu, .inp, .msh, "
@@ -198,7 +197,7 @@ Result<ExitCode> make_hexmesh(Session& session, const HexmeshOptions& options) {
     add_body(session, *built, *solids, quality,
              {.for_solver = !options.output.empty() && is_for_solvers(*format), .is_fitted = options.fit});
     if (quality) add_quality(session, *quality);
-    const Result<CellNumbers> numbers = cell_numbers(session, options, built->mesh);
+    const Result<CellNumbers> numbers = cell_numbers(session, context, options, built->mesh);
     if (!numbers) return numbers.error();
     if (!options.output.empty()) {
         Result<io::WriteReport> written =

@@ -71,11 +71,11 @@ Result<Drawn> draw_by_order(Session& session, const Context& context, const Rend
     });
     if (!drawing) return drawing.error();
     Status written = session.timed("write", [&]() -> Status {
-        if (format == "svg") return render::write_svg(options.output, *drawing);
-        if (format == "pdf") return render::write_pdf(options.output, *drawing);
+        if (format == "svg") return render::write_svg(options.output, *drawing, context);
+        if (format == "pdf") return render::write_pdf(options.output, *drawing, context);
         const Result<render::Image> image = render::paint(*drawing, context);
         if (!image) return image.error();
-        return render::write_png(options.output, *image);
+        return render::write_png(options.output, *image, context);
     });
     if (!written) return std::move(written).error();
     Drawn drawn{drawing->regions.size(), 0};
@@ -93,7 +93,7 @@ Status draw_by_depth(Session& session, const Context& context, const RenderOptio
     const Result<render::Image> image =
         session.timed("draw", [&] { return render::draw(subject.scene, camera, drawing, context); });
     if (!image) return image.error();
-    return session.timed("write", [&] { return render::write_png(options.output, *image); });
+    return session.timed("write", [&] { return render::write_png(options.output, *image, context); });
 }
 
 /// The engine: "order" or "depth".

@@ -132,6 +132,21 @@ TEST_F(BpOctreeVerbs, TheBeginningOfAFileIsEnoughForItsLevels) {
     }
 }
 
+TEST_F(BpOctreeVerbs, SolidsOfAVolumeBeyondDoublesAreRefused) {
+    for (const auto& [size, code] : {std::pair{"1e103", 4}, {"1e-120", 0}, {"1e100", 0}}) {
+        ASSERT_EQ(octavo(std::string("shape cube -o cube.off --size ") + size).exit_code, 0);
+        const Ran ran = octavo("build cube.off -o cube.bpo --json");
+        EXPECT_EQ(ran.exit_code, code) << size << ran.err;
+        EXPECT_EQ(std::filesystem::exists(path("cube.bpo")), code == 0) << size;
+        if (code == 0) {
+            EXPECT_EQ(octavo("stats cube.bpo").exit_code, 0) << size;
+        } else {
+            EXPECT_NE(ran.json()["error"]["message"].get<std::string>().find("volume"), std::string::npos);
+        }
+        std::filesystem::remove(path("cube.bpo"));
+    }
+}
+
 TEST_F(BpOctreeVerbs, ADamagedFileIsExitCode3WithTheByte) {
     ASSERT_EQ(octavo("shape cube -o cube.ply").exit_code, 0);
     ASSERT_EQ(octavo("build cube.ply -o cube.bpo").exit_code, 0);

@@ -223,6 +223,58 @@ TEST_F(Conventions, AnInputIsNeverOverwritten) {
     EXPECT_EQ(read("cube.off"), before);
 }
 
+TEST_F(Conventions, NeitherIsAFileThatAnInputRefersToNorAnotherOutput) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    write("part.csg", "import(file = \"cube.off\");");
+    write("part.poly", "0 3 0 0\n4 0\n1 0\n3 0 2 1\n1 0\n3 0 1 3\n1 0\n3 1 2 3\n1 0\n3 2 0 3\n0\n");
+    write("part.node", "4 3 0 0\n0 0 0 0\n1 6 0 0\n2 0 6 0\n3 0 0 6\n");
+    write("both.csg", "import(file = \"part.poly\");");
+    const std::map<std::string, std::string> before{{"cube.off", read("cube.off")},
+                                                    {"part.node", read("part.node")}};
+    ASSERT_EQ(octavo("info part.poly").exit_code, 0);
+    for (const char* arguments :
+         {"eval part.csg -o cube.off", "convert part.csg cube.off", "octree part.csg -o cube.off --to oct",
+          "hexmesh part.csg -o cube.off --to octree", "union part.csg part.csg -o cube.off",
+          "convert part.poly part.node --to off", "convert both.csg part.node --to off",
+          "hexmesh cube.off --level 2 --picture a.png -o ./a.png --to vtu"}) {
+        const Ran ran = octavo(arguments);
+        EXPECT_EQ(ran.exit_code, 2) << arguments << ran.err;
+        EXPECT_NE(ran.err.find("would overwrite"), std::string::npos) << ran.err;
+        for (const auto& [name, content] : before) EXPECT_EQ(read(name), content) << arguments;
+        EXPECT_FALSE(std::filesystem::exists(path("a.png"))) << arguments;
+    }
+}
+
+TEST_F(Conventions, OutputsGoWhereLinksLeadAndMayHaveTheLongestNames) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    std::filesystem::create_directory(path("elsewhere"));
+    std::filesystem::create_symlink("elsewhere/new.off", path("link.off"));
+    EXPECT_EQ(octavo("convert cube.off link.off").exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(path("link.off")));
+    EXPECT_EQ(read("elsewhere/new.off"), read("cube.off"));
+    std::filesystem::create_symlink("round.off", path("round.off"));
+    EXPECT_EQ(octavo("convert cube.off round.off").exit_code, 3);
+    EXPECT_TRUE(std::filesystem::is_symlink(path("round.off")));
+    // Of two bytes a letter, and of one.
+    std::string umlauts = "a";
+    for (int i = 0; i < 125; ++i) umlauts += "ä";
+    for (const std::string& name : {umlauts + ".off", std::string(251, 'a') + ".off"}) {
+        const Ran ran = octavo("convert cube.off " + name);
+        EXPECT_EQ(ran.exit_code, 0) << ran.err;
+        EXPECT_EQ(read(name), read("cube.off"));
+    }
+}
+
+TEST_F(Conventions, NamesOfFilesAreNoCommandsToTheTerminal) {
+    const Ran missing = shell("$octavo info $'a\\e[2Jb\\n\\xc2\\x9bc\\xff.stl'");
+    EXPECT_EQ(missing.exit_code, 3);
+    EXPECT_NE(missing.err.find("a\\x1b[2Jb\\n\\xc2\\x9bc\\xff.stl: cannot be opened"), std::string::npos)
+        << missing.err;
+    EXPECT_NE(shell("$octavo $'in\\efo'").err.find("in\\x1bfo"), std::string::npos);
+    const Ran told = shell("$octavo shape cube -o $'\\e]0;ä.off'");
+    EXPECT_NE(told.out.find("\\x1b]0;ä.off: cube"), std::string::npos) << told.out;
+}
+
 TEST_F(Conventions, AFailureLeavesNoFileBehind) {
     write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n");
     EXPECT_EQ(octavo("convert bad.off out.stl").exit_code, 3);
@@ -247,16 +299,52 @@ TEST_F(Conventions, ColourFollowsTheEnvironment) {
         << "stderr is no terminal";
 }
 
-TEST_F(Conventions, AnInterruptEndsLongWorkWithExitCode130) {
+TEST_F(Conventions, SignalsEndLongWorkAndLeaveNothing) {
     ASSERT_EQ(octavo("shape rock --detail 200 -o rock.ply").exit_code, 0);
-    // The first line of progress shows that the work has begun.
-    const Ran ran = shell(
-        "$octavo octree rock.ply --depth 13 -o out.oct --threads 1 --progress plain 2>progress & worker=$!;"
-        "for i in $(seq 400); do [ -s progress ] && break; sleep 0.05; done;"
-        "kill -INT $worker; wait $worker; code=$?; cat progress >&2; exit $code");
-    EXPECT_EQ(ran.exit_code, 130);
-    EXPECT_NE(ran.err.find("cancelled"), std::string::npos) << ran.err;
-    EXPECT_FALSE(std::filesystem::exists(path("out.oct")));
+    for (const auto& [signal, code] : {std::pair{"INT", 130}, {"TERM", 143}, {"HUP", 129}}) {
+        // The first line of progress shows that the work has begun.
+        const Ran ran = shell(
+            "$octavo octree rock.ply --depth 13 -o out.oct --threads 1 --progress plain 2>progress & "
+            "worker=$!;"
+            "for i in $(seq 400); do [ -s progress ] && break; sleep 0.05; done;"
+            "kill -" +
+            std::string(signal) +
+            " $worker; wait $worker; code=$?; cat progress >&2; rm progress; exit $code");
+        EXPECT_EQ(ran.exit_code, code);
+        EXPECT_NE(ran.err.find("cancelled"), std::string::npos) << ran.err;
+        EXPECT_EQ(shell("ls").out, "rock.ply\n");
+    }
+}
+
+TEST_F(Conventions, SignalsEndWaitingForPipes) {
+    ASSERT_EQ(octavo("shape rock --detail 100 -o rock.ply").exit_code, 0);
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    for (const std::string command :
+         {"info empty.off", "info alone.off", "info - <>empty.off", "stats - <>empty.off",
+          "contains cube.off empty.off --points-format csv", "hexmesh cube.off --level 2 --values empty.off",
+          "convert cube.off alone.off", "convert rock.ply full.ply", "convert rock.ply - --to ply >full.ply",
+          "render cube.off -o full.ply --to png", "man >full.ply", "convert rock.ply kept.ply >full.ply"}) {
+        // Somebody has the pipes open, but for one, and does nothing. Whoever sleeps for a while waits.
+        const Ran ran = shell(
+            "mkfifo empty.off alone.off full.ply; sleep 60 <>empty.off & empty=$!;"
+            "sleep 60 <>full.ply & full=$!; cat /dev/zero >full.ply & filler=$!; sleep 0.1; $octavo " +
+            command +
+            " & worker=$!; asleep=0; for i in $(seq 500); do"
+            "  [ \"$(cut -d ' ' -f 3 /proc/$worker/stat)\" = S ] && asleep=$((asleep + 1)) || asleep=0;"
+            "  [ $asleep = 5 ] && break; sleep 0.02; done;"
+            "kill -INT $worker; wait $worker; code=$?; kill $empty $full $filler; rm *.off full.ply;"
+            "exit $code");
+        EXPECT_EQ(ran.exit_code, 130) << command << ran.err;
+        EXPECT_NE(ran.err.find("cancelled"), std::string::npos) << command << ran.err;
+        ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    }
+}
+
+TEST_F(Conventions, MoreThreadsThanCoresAreNoWarning) {
+    ASSERT_EQ(octavo("shape rock --detail 60 -o rock.ply").exit_code, 0);
+    const Ran ran = octavo("octree rock.ply --depth 7 --threads 200");
+    EXPECT_EQ(ran.exit_code, 0);
+    EXPECT_EQ(ran.err, "");
 }
 
 TEST_F(Conventions, ManPageAndCompletionKnowEveryVerb) {

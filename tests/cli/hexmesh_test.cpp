@@ -171,6 +171,37 @@ TEST_F(Hexmesh, NamesTheLevelWhenItIsTooDeep) {
     EXPECT_EQ(ran.err.find("precision"), std::string::npos) << ran.err;
 }
 
+TEST_F(Hexmesh, ProvesCellsOfAnySizeOrRefusesThem) {
+    for (const auto& [size, code] : {std::pair{"1e-110", 4}, {"1e-85", 0}, {"1e85", 0}, {"1e115", 4}}) {
+        ASSERT_EQ(octavo(std::string("shape sphere --detail 4 -o ball.off --size ") + size).exit_code, 0);
+        for (const char* how : {"--fit", "--conforming"}) {
+            const Ran ran =
+                octavo(std::string("hexmesh ball.off --level 3 --max-cells 1M -o ball.inp --json ") + how);
+            ASSERT_EQ(ran.exit_code, code) << size << how << ran.err;
+            if (code == 0) {
+                EXPECT_EQ(ran.json()["result"]["quality"]["not_proved_positive"], 0) << size << how;
+            } else {
+                EXPECT_NE(ran.err.find("1e90"), std::string::npos) << ran.err;
+            }
+        }
+    }
+}
+
+TEST_F(Hexmesh, AnOpenfoamCaseKeepsForeignFilesAndIsWhole) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    std::filesystem::create_directories(path("case/constant/polyMesh"));
+    write("case/constant/polyMesh/blockMeshDict", "mine");
+    const Ran ran = octavo("hexmesh cube.off --level 2 -o case");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_NE(ran.err.find("keeps what others put there: blockMeshDict"), std::string::npos) << ran.err;
+    EXPECT_EQ(read("case/constant/polyMesh/blockMeshDict"), "mine");
+    for (const char* name : {"controlDict", "fvSchemes", "fvSolution"})
+        EXPECT_NE(read(std::string("case/system/") + name).find(name), std::string::npos);
+    write("a_file", "mine");
+    EXPECT_EQ(octavo("hexmesh cube.off --level 2 -o a_file").exit_code, 3);
+    EXPECT_EQ(read("a_file"), "mine");
+}
+
 TEST_F(Hexmesh, GoesFromOpenscadToAPictureOfStresses) {
     // The worked example of docs/methods/hexmesh.md, coarser.
     const std::string examples = std::string(source_folder) + "/docs/examples/";

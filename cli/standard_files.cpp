@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "to_stderr.hpp"
+#include "standard_files.hpp"
 
+#include <cerrno>
 #include <cstdio>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "interruption.hpp"
+
 namespace octavo::cli {
+
+bool to_stdout(std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
+        if (written < 0 && (errno != EINTR || interruption())) return false;
+        if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+}
 
 void to_stderr(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
