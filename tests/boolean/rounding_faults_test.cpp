@@ -218,12 +218,12 @@ void expect_all_faults_told(Numbers numbers, double far, double scale, int runs)
 }
 
 TEST(MendRounding, TellsOfAllFaultsWhereDoublesAreCoarse) {
-    expect_all_faults_told(Numbers::doubles, 0x1p52, 1, 500);
+    expect_all_faults_told(Numbers::doubles, 0x1p52, 1, 220);
 }
 
 TEST(MendRounding, TellsOfAllFaultsWhereFloatsAreCoarse) {
-    expect_all_faults_told(Numbers::floats, 0x1p23, 1, 150);
-    expect_all_faults_told(Numbers::floats, 0x1p23, 0.75, 150);  // vertices of operands move too
+    expect_all_faults_told(Numbers::floats, 0x1p23, 1, 75);
+    expect_all_faults_told(Numbers::floats, 0x1p23, 0.75, 75);  // vertices of operands move too
 }
 
 }  // namespace

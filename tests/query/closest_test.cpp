@@ -123,7 +123,7 @@ void expect_exact(const mesh::LatticeMesh& mesh, std::span<const Vec3> points) {
 
 TEST(Closest, IsTheBruteForceAnswerInRationalsOnACurvedSolid) {
     const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(3));
-    expect_exact(mesh, trying_points(mesh, scaled(200)));
+    expect_exact(mesh, trying_points(mesh, scaled(80)));
 }
 
 TEST(Closest, IsTheBruteForceAnswerInRationalsOnBoxesFullOfTies) {
