@@ -13,13 +13,17 @@ struct Extent {
 };
 
 /// Of the shell of each vertex that stands for one. Volumes are taken from that vertex, so that they do not drown in the
-/// distance from the origin.
-std::vector<Extent> extents(const mesh::Mesh& mesh, mesh::DisjointSets& shells) {
+/// distance from the origin, and in units of the tolerance, a lattice unit or so: in those of the world, squares of areas
+/// would be no doubles from 1e77 on, nor above zero at 1e-81.
+std::vector<Extent> extents(const mesh::Mesh& mesh, mesh::DisjointSets& shells, double tolerance) {
     std::vector<Extent> result(mesh.vertices.size());
     for (const mesh::Triangle& t : mesh.triangles) {
         const std::uint32_t shell = shells.find(t[0]);
-        const Vec3 base = mesh.vertices[shell], a = mesh.vertices[t[0]] - base,
-                   b = mesh.vertices[t[1]] - base, c = mesh.vertices[t[2]] - base;
+        const auto corner = [&](std::size_t k) {
+            const Vec3 offset = mesh.vertices[t[k]] - mesh.vertices[shell];
+            return Vec3{offset.x / tolerance, offset.y / tolerance, offset.z / tolerance};
+        };
+        const Vec3 a = corner(0), b = corner(1), c = corner(2);
         result[shell].volume6 += dot(a, cross(b, c));
         result[shell].area2 += length(cross(b - a, c - a));
     }
@@ -31,10 +35,10 @@ std::vector<Extent> extents(const mesh::Mesh& mesh, mesh::DisjointSets& shells) 
 ThinShells drop_thin_shells(mesh::Mesh& mesh, double tolerance) {
     mesh::DisjointSets shells(mesh.vertices.size());
     for (const mesh::Triangle& t : mesh.triangles) shells.unite(t[0], t[1]), shells.unite(t[1], t[2]);
-    const std::vector<Extent> extent = extents(mesh, shells);
+    const std::vector<Extent> extent = extents(mesh, shells, tolerance);
     const auto is_thin = [&](std::uint32_t vertex) {
         const Extent& of = extent[shells.find(vertex)];
-        return std::fabs(of.volume6) / 6 < tolerance / 2 * of.area2 / 2;
+        return std::fabs(of.volume6) / 6 < 0.5 * of.area2 / 2;
     };
     ThinShells result;
     std::vector<std::uint32_t> vertex_number(mesh.vertices.size(), no_index);

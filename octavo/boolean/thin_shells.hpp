@@ -20,7 +20,7 @@ struct ThinShells {
     std::vector<std::uint32_t> number;  ///< per triangle, what it is now; no_index when it has gone
 };
 
-/// `tolerance` in the mesh's units; vertices of dropped shells go too.
+/// `tolerance` in the mesh's units, above 0; vertices of dropped shells go too.
 ThinShells drop_thin_shells(mesh::Mesh& mesh, double tolerance);
 
 }  // namespace octavo::boolean

@@ -103,6 +103,16 @@ TEST(Flush, KeepsAnAssemblyTogetherThatIsTurned) {
         expect_same_shape(parts, axis, degrees, "a table turned by " + std::to_string(degrees));
 }
 
+TEST(Flush, TakesNoSolidForAThinShellWhateverItsScale) {
+    for (const double scale : {1e-100, 1e-90, 1e-30, 1e30, 2e90, 1e100}) {
+        mesh::Mesh cube = tests::box({0, 0, 0}, {1, 1, 1}).mesh;
+        for (Vec3& vertex : cube.vertices) vertex = scale * vertex;
+        const Result<Evaluated> result = unite({&cube, 1}, {.tolerance = scale * 1e-6});
+        ASSERT_TRUE(result) << scale;
+        EXPECT_EQ(result->mesh.triangles.size(), 12U) << scale;
+    }
+}
+
 TEST(Flush, LeavesTheExactResultWithoutATolerance) {
     const std::vector<mesh::Mesh> parts = turned(table(), {1, 2, 3}, 30);
     const Result<Evaluated> exact = unite(parts);
