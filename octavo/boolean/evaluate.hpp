@@ -101,8 +101,9 @@ struct Evaluated {
 };
 
 /// Evaluates `program` over closed meshes; operand k of the program is `operands[k]`.
-/// Errors: not_a_solid when an operand is open or inconsistently oriented and `open` rejects that (with operand and facets),
-/// bad_input when a mesh is malformed, the tolerance no length, or the result unbounded, limit when the operands have no common lattice, cancelled.
+/// Errors: not_a_solid when an operand is open or inconsistently oriented and `open` rejects that (with operand and
+/// facets), bad_input when a mesh is malformed, the tolerance no length, or the result unbounded, limit when the operands
+/// have no common lattice, cancelled.
 Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Program& program,
                            const Options& options = {}, const Context& context = {});
 

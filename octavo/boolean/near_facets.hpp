@@ -16,10 +16,10 @@
 // The pairs of triangles of the result that rounding may bring into contact, from what is known of the soup's facets.
 //
 // Problem: rounding moves points by 2^-28 of a lattice unit or so, to floats by a unit or two, which can make triangles
-// cross that were apart by as little. To look for such pairs among all triangles of the result would cost more than the set operation: pieces of
-// slivers lie beside each other by the thousand. Idea: triangles lie in facets of the soup, and facets that are farther
-// apart than `contact_reach` did not pass the filter that looked for contacts. Let δ be what rounding moves a
-// coordinate by, and s the reach. A pair of facets is listed here when
+// cross that were apart by as little. To look for such pairs among all triangles of the result would cost more than the
+// set operation: pieces of slivers lie beside each other by the thousand. Idea: triangles lie in facets of the soup, and
+// facets that are farther apart than `contact_reach` did not pass the filter that looked for contacts. Let δ be what
+// rounding moves a coordinate by, and s the reach. A pair of facets is listed here when
 //   - it passed that filter: else a plane has both on its two sides, corners that they share in it, all others farther
 //     from it than s;
 //   - or it shares an edge;

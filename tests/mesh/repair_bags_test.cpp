@@ -12,25 +12,12 @@
 
 #include "effort.hpp"
 #include "glued_solids.hpp"
+#include "repaired.hpp"
 
 // What repair must never do, whatever the input: to bags of bodies that share edges, facets and space.
 
 namespace octavo::mesh {
 namespace {
-
-Repaired repaired(const Mesh& mesh) {
-    auto result = repair(mesh);
-    EXPECT_TRUE(result.has_value()) << result.error().describe();
-    return *result;
-}
-
-Report report_of(const Mesh& mesh) {
-    auto report = validate(mesh);
-    EXPECT_TRUE(report.has_value()) << report.error().describe();
-    return *report;
-}
-
-Mesh both(const Mesh& a, const Mesh& b) { return join(std::array{a, b}); }
 
 /// Whether no two of its facets meet but at their own edges and corners.
 bool is_embedded(const Report& report) {

@@ -12,24 +12,13 @@
 #include <octavo/mesh/validate.hpp>
 
 #include "models.hpp"
+#include "repaired.hpp"
 #include "surfaces.hpp"
 
 namespace octavo::mesh {
 namespace {
 
 using testing::ElementsAre;
-
-Repaired repaired(const Mesh& mesh) {
-    auto result = repair(mesh);
-    EXPECT_TRUE(result.has_value()) << result.error().describe();
-    return *result;
-}
-
-Report report_of(const Mesh& mesh) {
-    auto report = validate(mesh);
-    EXPECT_TRUE(report.has_value()) << report.error().describe();
-    return *report;
-}
 
 std::vector<RepairKind> kinds_of(const RepairReport& report) {
     std::vector<RepairKind> kinds;
@@ -42,7 +31,6 @@ void expect_same(const Mesh& a, const Mesh& b) {
     EXPECT_EQ(a.triangles, b.triangles);
 }
 
-Mesh both(const Mesh& a, const Mesh& b) { return join(std::array{a, b}); }
 Mesh moved(const Mesh& mesh, Vec3 offset) { return transform(mesh, translation(offset)); }
 
 /// Loose triangles, some turned over, in random order.
