@@ -45,8 +45,11 @@ class Server final : public io::ByteSource {
 const BpOctree& sample_tree() {
     static const BpOctree tree = [] {
         BuildOptions options;
-        options.leaf_triangles = 4;
-        return std::move(build(tests::on_lattice(tests::bumpy_sphere(6)), options)).value();
+        options.leaf_triangles = 6;
+        options.depth = 7;
+        options.quality = Quality::fast;
+        options.least_gain = 1e-2;
+        return std::move(build(tests::on_lattice(tests::bumpy_sphere(5)), options)).value();
     }();
     return tree;
 }
@@ -157,12 +160,12 @@ TEST(BpoView, DetailInOnePlaceNeedsFewBytesAndContainsTheSolid) {
     const auto everywhere = [](const octree::Cell&, const Box3&) { return true; };
     const auto fine = read_view(all_reader, everywhere);
     const Vec3 eye = sample_tree().mesh.lattice.to_world(sample_tree().mesh.points[0]);
-    // As finely as seen from the eye: cells at most a fifth of their distance wide.
+    // As finely as seen from the eye: cells at most half as wide as they are far.
     const auto near = read_view(reader, [&](const octree::Cell&, const Box3& box) {
         Vec3 away;
         for (int axis = 0; axis < 3; ++axis)
             away[axis] = std::max({box.low[axis] - eye[axis], eye[axis] - box.high[axis], 0.0});
-        return length(box.extents()) > 0.2 * length(away);
+        return length(box.extents()) > 0.5 * length(away);
     });
     ASSERT_TRUE(fine.has_value());
     ASSERT_TRUE(near.has_value());

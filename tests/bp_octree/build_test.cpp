@@ -39,6 +39,26 @@ void for_each_node(const BpOctree& tree, const Visit& visit, NodeIndex node = 0,
         for_each_node(tree, visit, tree.link[node] + i, cell.child(static_cast<int>(i)));
 }
 
+bool in_box(const CellBox& box, exact::Point p) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        if (2 * p[axis] < box.low[i] || 2 * p[axis] > box.high[i]) return false;
+    }
+    return true;
+}
+
+/// Calls visit(node, box) for the nodes whose cells hold a point, from the root down.
+template <class Visit>
+void for_each_node_round(const BpOctree& tree, exact::Point point, const Visit& visit, NodeIndex node = 0,
+                         const Cell& cell = Cell::root()) {
+    const CellBox box = tree.frame.box(cell);
+    if (!in_box(box, point)) return;
+    visit(node, box);
+    if (tree.nodes[node] != Node::split) return;
+    for (unsigned i = 0; i < 8; ++i)
+        for_each_node_round(tree, point, visit, tree.link[node] + i, cell.child(static_cast<int>(i)));
+}
+
 /// Is the point, in doubled coordinates, within all planes of the node? Rational, hence exact.
 bool within_planes(const BpOctree& tree, NodeIndex node, const CellBox& box, const RationalPoint& x) {
     for (const BoundingPlane& plane : tree.planes_of(node)) {
@@ -48,12 +68,6 @@ bool within_planes(const BpOctree& tree, NodeIndex node, const CellBox& box, con
             value += u[axis] * (x[static_cast<std::size_t>(axis)] - box.low[axis]) * 65536 / box.side(axis);
         if (value > plane.reach()) return false;
     }
-    return true;
-}
-
-bool in_box(const CellBox& box, const RationalPoint& x) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (x[axis] < box.low[axis] || x[axis] > box.high[axis]) return false;
     return true;
 }
 
@@ -75,9 +89,11 @@ void expect_surface_contained(const BpOctree& tree) {
 TEST(Build, PlanesContainTheSurfaceExactly) {
     BuildOptions options;
     options.leaf_triangles = 6;
+    // Rational numbers are slow: 128 triangles, or 512 when there is time.
+    const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(tests::effort() < 5 ? 2 : 3));
     for (const Quality quality : {Quality::fast, Quality::normal}) {
         options.quality = quality;
-        const BpOctree tree = built(tests::on_lattice(tests::bumpy_sphere(3)), options);
+        const BpOctree tree = built(mesh, options);
         EXPECT_TRUE(tree.is_solid);
         EXPECT_GT(tree.planes.size(), 100U);
         expect_surface_contained(tree);
@@ -135,9 +151,7 @@ TEST(Build, InteriorPointsLieInBlackCellsOrWithinTheEnvelopesOfAllLevels) {
                       world.z > low.z && world.z < high.z;
         inside_points += inside;
         const RationalPoint x = tests::doubled(p);
-        for_each_node(tree, [&](NodeIndex node, const Cell& cell) {
-            const CellBox box = tree.frame.box(cell);
-            if (!in_box(box, x)) return;
+        for_each_node_round(tree, p, [&](NodeIndex node, const CellBox& box) {
             const Node kind = tree.nodes[node];
             ASSERT_FALSE(kind == Node::white && inside);
             ASSERT_FALSE(kind == Node::black && !inside);
@@ -152,7 +166,7 @@ TEST(Build, InteriorPointsLieInBlackCellsOrWithinTheEnvelopesOfAllLevels) {
 TEST(Build, VolumesShrinkFromLevelToLevelTowardsTheSolid) {
     BuildOptions options;
     options.leaf_triangles = 8;
-    const BpOctree tree = built(tests::on_lattice(tests::bumpy_sphere(6)), options);
+    const BpOctree tree = built(tests::on_lattice(tests::bumpy_sphere(5)), options);
     ASSERT_GE(tree.deepest(), 4);
     for (std::size_t level = 1; level < tree.levels.size(); ++level)
         EXPECT_LT(tree.levels[level].volume, tree.levels[level - 1].volume);

@@ -106,8 +106,16 @@ struct Place {
     int winding = 0;
 };
 
-/// By a ray in an oblique direction; one that meets an edge is given up for the next.
-inline Place place_of(const ScaledSurface& surface, const IntegerPoint& p) {
+/// The directions of rays, all oblique.
+inline std::array<int, 3> ray_direction(int attempt) {
+    return {1000003 + 7919 * attempt, 777767 - 104729 * attempt, 500009 + 31 * attempt * attempt};
+}
+
+/// By a ray in this direction among `triangles`, of which there are at least all that meet the ray's line; none when it
+/// meets an edge.
+template <class Triangles>
+std::optional<Place> place_by_ray(const Triangles& triangles, const IntegerPoint& p,
+                                  const std::array<int, 3>& direction) {
     const auto minus = [](const IntegerPoint& a, const IntegerPoint& b) {
         return IntegerPoint{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     };
@@ -117,39 +125,44 @@ inline Place place_of(const ScaledSurface& surface, const IntegerPoint& p) {
     const auto dot = [](const IntegerPoint& a, const IntegerPoint& b) -> Integer {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     };
-    for (int attempt = 0;; ++attempt) {
-        const IntegerPoint d{1000003 + 7919 * attempt, 777767 - 104729 * attempt,
-                             500009 + 31 * attempt * attempt};
-        int winding = 0;
-        bool retry = false;
-        for (const auto& [a0, b0, c0] : surface.triangles) {
-            const IntegerPoint a = minus(a0, p), b = minus(b0, p), c = minus(c0, p);
-            const IntegerPoint n = cross(minus(b, a), minus(c, a));
-            if (n[0] == 0 && n[1] == 0 && n[2] == 0) continue;
-            const int height = dot(a, n).sign();
-            if (height == 0) {
-                // In the plane: on the facet iff on the inner side of each edge.
-                if (dot(n, cross(a, b)).sign() >= 0 && dot(n, cross(b, c)).sign() >= 0 &&
-                    dot(n, cross(c, a)).sign() >= 0)
-                    return {true, 0};
-                continue;
-            }
-            const int along = dot(d, n).sign();
-            const int ab = dot(d, cross(a, b)).sign(), bc = dot(d, cross(b, c)).sign(),
-                      ca = dot(d, cross(c, a)).sign();
-            const bool hit = along != 0 && ab * along >= 0 && bc * along >= 0 && ca * along >= 0;
-            if (along == 0) retry = true;
-            if (!hit || along != height) continue;  // beside it, or behind the start
-            if (ab == 0 || bc == 0 || ca == 0) retry = true;
-            winding += along;
+    const IntegerPoint d{direction[0], direction[1], direction[2]};
+    int winding = 0;
+    bool meets_edge = false;
+    for (const std::array<IntegerPoint, 3>& triangle : triangles) {
+        const IntegerPoint a = minus(triangle[0], p), b = minus(triangle[1], p), c = minus(triangle[2], p);
+        const IntegerPoint n = cross(minus(b, a), minus(c, a));
+        if (n[0] == 0 && n[1] == 0 && n[2] == 0) continue;
+        const int height = dot(a, n).sign();
+        if (height == 0) {
+            // In the plane: on the facet iff on the inner side of each edge.
+            if (dot(n, cross(a, b)).sign() >= 0 && dot(n, cross(b, c)).sign() >= 0 &&
+                dot(n, cross(c, a)).sign() >= 0)
+                return Place{true, 0};
+            continue;
         }
-        if (!retry) return {false, winding};
+        const int along = dot(d, n).sign();
+        const int ab = dot(d, cross(a, b)).sign(), bc = dot(d, cross(b, c)).sign(),
+                  ca = dot(d, cross(c, a)).sign();
+        const bool hit = along != 0 && ab * along >= 0 && bc * along >= 0 && ca * along >= 0;
+        if (along == 0) meets_edge = true;
+        if (!hit || along != height) continue;  // beside it, or behind the start
+        if (ab == 0 || bc == 0 || ca == 0) meets_edge = true;
+        winding += along;
     }
+    if (meets_edge) return std::nullopt;
+    return Place{false, winding};
+}
+
+/// By the first ray that meets no edge.
+inline Place place_of(const ScaledSurface& surface, const IntegerPoint& p) {
+    for (int attempt = 0;; ++attempt)
+        if (const auto place = place_by_ray(surface.triangles, p, ray_direction(attempt))) return *place;
 }
 
 /// Whether a point lies between two corners of some facet: what there is of one without area.
-inline bool is_between_corners(const ScaledSurface& surface, const IntegerPoint& p) {
-    for (const std::array<IntegerPoint, 3>& triangle : surface.triangles)
+template <class Triangles>
+bool is_between_corners(const Triangles& triangles, const IntegerPoint& p) {
+    for (const std::array<IntegerPoint, 3>& triangle : triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             IntegerPoint u, v;
             for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -4,59 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <octavo/io/read.hpp>
 #include <octavo/query/closest.hpp>
 
-#include "bp_octree/rational.hpp"
 #include "bp_octree/solids.hpp"
 #include "effort.hpp"
+#include "models.hpp"
+#include "query/closest_oracle.hpp"
 
 namespace octavo::query {
 namespace {
-
-using tests::Rational;
-using tests::RationalPoint;
-
-RationalPoint rational(exact::Point p) { return {Rational(p.x), Rational(p.y), Rational(p.z)}; }
-RationalPoint minus(const RationalPoint& a, const RationalPoint& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Rational dot(const RationalPoint& a, const RationalPoint& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Rational square_to_segment(const RationalPoint& q, const RationalPoint& a, const RationalPoint& b) {
-    const RationalPoint e = minus(b, a), w = minus(q, a);
-    Rational t = dot(e, e) == 0 ? Rational(0) : Rational(dot(e, w) / dot(e, e));
-    t = t < 0 ? Rational(0) : t > 1 ? Rational(1) : t;
-    const RationalPoint d{w[0] - t * e[0], w[1] - t * e[1], w[2] - t * e[2]};
-    return dot(d, d);
-}
-
-/// By another road than the code under test: the least of three segments, and the plane where the foot is inside.
-Rational square_to_triangle(const RationalPoint& q, const mesh::LatticeMesh& mesh, mesh::FaceIndex face) {
-    const mesh::Triangle& t = mesh.triangles[face];
-    const RationalPoint a = rational(mesh.points[t[0]]), b = rational(mesh.points[t[1]]),
-                        c = rational(mesh.points[t[2]]);
-    Rational least = std::min(square_to_segment(q, a, b),
-                              std::min(square_to_segment(q, b, c), square_to_segment(q, c, a)));
-    const RationalPoint n = cross(minus(b, a), minus(c, a));
-    if (dot(n, n) == 0) return least;
-    if (dot(n, cross(minus(b, a), minus(q, a))) >= 0 && dot(n, cross(minus(c, b), minus(q, b))) >= 0 &&
-        dot(n, cross(minus(a, c), minus(q, c))) >= 0) {
-        const Rational height = dot(n, minus(q, a));
-        least = std::min(least, Rational(height * height / dot(n, n)));
-    }
-    return least;
-}
-
-RationalPoint rational(const FixedPoint& q) {
-    RationalPoint point;
-    for (std::size_t i = 0; i < 3; ++i) point[i] = Rational(q.x[i]) / Rational(std::int64_t{1} << q.shift);
-    return point;
-}
 
 /// The mesh's vertices, edge middles, face centres, points on bisectors, and points near and far.
 std::vector<Vec3> trying_points(const mesh::LatticeMesh& mesh, std::size_t random_points) {
@@ -100,18 +57,13 @@ void expect_exact(const mesh::LatticeMesh& mesh, std::span<const Vec3> points) {
     options.sign = ClosestOptions::Sign::none;
     auto query = ClosestQuery::build(mesh, options);
     ASSERT_TRUE(query.has_value());
+    const tests::ClosestOracle oracle(mesh);
     const std::vector<Closest> batch = (*query)(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Closest closest = (*query)(points[i]);
-        const RationalPoint q = rational(FixedPoint::of(points[i], mesh.lattice));
-        Rational least = square_to_triangle(q, mesh, 0);
-        mesh::FaceIndex first = 0;
-        for (mesh::FaceIndex face = 1; face < mesh.triangles.size(); ++face) {
-            const Rational square = square_to_triangle(q, mesh, face);
-            if (square < least) least = square, first = face;
-        }
-        ASSERT_EQ(closest.triangle, first) << "point " << i;
-        const double distance = std::sqrt(least.convert_to<double>()) * mesh.lattice.unit();
+        const tests::ClosestOracle::Answer nearest = oracle(FixedPoint::of(points[i], mesh.lattice));
+        ASSERT_EQ(closest.triangle, nearest.face) << "point " << i;
+        const double distance = nearest.distance * mesh.lattice.unit();
         ASSERT_NEAR(closest.distance, distance, 1e-15 * distance) << "point " << i;
         ASSERT_NEAR(length(closest.point - points[i]), distance, 1e-8 + 1e-14 * length(points[i]))
             << "point " << i;
@@ -121,17 +73,17 @@ void expect_exact(const mesh::LatticeMesh& mesh, std::span<const Vec3> points) {
     }
 }
 
-TEST(Closest, IsTheBruteForceAnswerInRationalsOnACurvedSolid) {
-    const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(3));
-    expect_exact(mesh, trying_points(mesh, scaled(80)));
+TEST(Closest, IsTheBruteForceAnswerInWholeNumbersOnACurvedSolid) {
+    const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(5));
+    expect_exact(mesh, trying_points(mesh, scaled(400)));
 }
 
-TEST(Closest, IsTheBruteForceAnswerInRationalsOnBoxesFullOfTies) {
+TEST(Closest, IsTheBruteForceAnswerInWholeNumbersOnBoxesFullOfTies) {
     mesh::Mesh mesh = tests::box({0, 0, 0}, {4, 4, 4});
     tests::add_box(mesh, {4, 4, 0}, {8, 8, 4});
     tests::add_box(mesh, {1, 1, 1}, {3, 3, 3});
     const mesh::LatticeMesh lattice_mesh = tests::on_lattice(mesh);
-    std::vector<Vec3> points = trying_points(lattice_mesh, 200);
+    std::vector<Vec3> points = trying_points(lattice_mesh, scaled(200));
     for (double x = -1; x <= 9; x += 1)
         for (double y = -1; y <= 9; y += 1)
             for (double z = -1; z <= 5; z += 1) points.push_back({x, y, z});
@@ -154,27 +106,23 @@ TEST(Closest, SliversAndDegenerateTrianglesAreMeasuredExactly) {
     }
     mesh.triangles.push_back({0, 0, 0});
     const mesh::LatticeMesh lattice_mesh = tests::on_lattice(mesh);
-    expect_exact(lattice_mesh, trying_points(lattice_mesh, 300));
+    expect_exact(lattice_mesh, trying_points(lattice_mesh, scaled(300)));
 }
 
-TEST(Closest, AgreesWithTestingEveryTriangleOnALargerSolid) {
-    const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(5));
-    ClosestOptions options;
-    options.sign = ClosestOptions::Sign::none;
-    auto query = ClosestQuery::build(mesh, options);
-    ASSERT_TRUE(query.has_value());
-    const std::vector<Vec3> points = trying_points(mesh, scaled(400));
-    const std::vector<Closest> answers = (*query)(points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const FixedPoint q = FixedPoint::of(points[i], mesh.lattice);
-        NearestFeature best = nearest_feature(q, mesh, 0);
-        mesh::FaceIndex first = 0;
-        for (mesh::FaceIndex face = 1; face < mesh.triangles.size(); ++face) {
-            const NearestFeature feature = nearest_feature(q, mesh, face);
-            if (compare_distance(q, mesh, feature, best) < 0) best = feature, first = face;
-        }
-        ASSERT_EQ(answers[i].triangle, first);
+TEST(Closest, IsTheBruteForceAnswerInWholeNumbersOnAScan) {
+    OCTAVO_NEEDS_MODEL("classic/bunny-closed-100k.ply");
+    const auto read = io::read_mesh((tests::models_folder() / "classic/bunny-closed-100k.ply").string());
+    ASSERT_TRUE(read.has_value());
+    const mesh::LatticeMesh mesh = tests::on_lattice(read->mesh);
+    std::vector<Vec3> points = trying_points(mesh, scaled(40));
+    // As many as that near the surface.
+    std::mt19937 random(23);
+    std::normal_distribution<double> near(0, 0.005 * length(read->mesh.bounds().extents()));
+    for (std::size_t i = points.size(); i > 0; --i) {
+        const Vec3 vertex = read->mesh.vertices[random() % read->mesh.vertices.size()];
+        points.push_back(vertex + Vec3{near(random), near(random), near(random)});
     }
+    expect_exact(mesh, points);
 }
 
 TEST(Closest, DistancesAreNegativeInsideAndZeroOnTheSurface) {

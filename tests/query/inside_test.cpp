@@ -35,11 +35,18 @@ Integer exact_multiple(double value) {
     return shift >= 0 ? Integer(whole) << shift : Integer(whole) >> -shift;
 }
 
-/// The oracle: the surface in world coordinates, as multiples of 2^-scale_bits, with everything in range exact.
+/// The oracle: the surface in world coordinates, as multiples of 2^-scale_bits, with everything in range exact. All
+/// facets that are not farther from a point, or from the line of its ray, than doubles could ever err.
 class Oracle {
   public:
     Oracle(const mesh::LatticeMesh& mesh, int scale_bits)
-        : scale_bits_(scale_bits), surface_(world_surface(mesh, scale_bits)) {}
+        : scale_bits_(scale_bits), surface_(world_surface(mesh, scale_bits)) {
+        for (const mesh::Triangle& t : mesh.triangles) {
+            Box3 box;
+            for (const mesh::VertexIndex vertex : t) box.add(mesh.lattice.to_world(mesh.points[vertex]));
+            spheres_.push_back({0.5 * (box.low + box.high), 0.5 * length(box.extents())});
+        }
+    }
 
     /// Whether the point is a multiple of 2^-scale_bits. Beside zero there are doubles that are not.
     bool represents(Vec3 p) const {
@@ -53,12 +60,39 @@ class Oracle {
     Side operator()(Vec3 p) const {
         const auto scaled = [&](double v) { return Integer(exact_multiple(v) >> (bits - scale_bits_)); };
         const tests::IntegerPoint point{scaled(p.x), scaled(p.y), scaled(p.z)};
-        if (tests::is_between_corners(surface_, point)) return Side::on;
-        const tests::Place place = tests::place_of(surface_, point);
-        return place.on_facet ? Side::on : place.winding > 0 ? Side::inside : Side::outside;
+        if (tests::is_between_corners(facets_near(p, {}), point)) return Side::on;
+        for (int attempt = 0;; ++attempt) {
+            const std::array<int, 3> d = tests::ray_direction(attempt);
+            const Vec3 direction{static_cast<double>(d[0]), static_cast<double>(d[1]),
+                                 static_cast<double>(d[2])};
+            const auto place =
+                tests::place_by_ray(facets_near(p, (1 / length(direction)) * direction), point, d);
+            if (!place) continue;
+            return place->on_facet ? Side::on : place->winding > 0 ? Side::inside : Side::outside;
+        }
     }
 
   private:
+    using Facet = std::array<tests::IntegerPoint, 3>;
+    struct Sphere {
+        Vec3 centre;
+        double radius;
+    };
+
+    /// Facets whose spheres come near the line through `p` in a direction of unit length, or near `p` without one.
+    std::vector<std::reference_wrapper<const Facet>> facets_near(Vec3 p, Vec3 direction) const {
+        std::vector<std::reference_wrapper<const Facet>> near;
+        for (std::size_t i = 0; i < spheres_.size(); ++i) {
+            const Vec3 away = spheres_[i].centre - p;
+            const double along = dot(away, direction);
+            const double slack =
+                1e-6 * (length(away) + spheres_[i].radius) + 1e-13 * (length(p) + length(spheres_[i].centre));
+            if (length(away - along * direction) <= spheres_[i].radius + slack)
+                near.push_back(std::cref(surface_.triangles[i]));
+        }
+        return near;
+    }
+
     static tests::ScaledSurface world_surface(const mesh::LatticeMesh& mesh, int scale_bits) {
         tests::ScaledSurface surface(mesh, Integer(1));
         const auto& origin = mesh.lattice.origin();
@@ -71,6 +105,7 @@ class Oracle {
 
     int scale_bits_;
     tests::ScaledSurface surface_;
+    std::vector<Sphere> spheres_;
 };
 
 Context with_threads(int threads) {

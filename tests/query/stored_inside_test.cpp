@@ -24,6 +24,7 @@ class StoredInsideTest : public testing::Test {
     void store(const mesh::LatticeMesh& mesh, std::size_t leaf_triangles) {
         bp_octree::BuildOptions options;
         options.leaf_triangles = leaf_triangles;
+        options.quality = bp_octree::Quality::fast;
         auto tree = bp_octree::build(mesh, options);
         ASSERT_TRUE(tree.has_value());
         bytes_ = bp_octree::encode(*tree);
@@ -76,7 +77,7 @@ TEST_F(StoredInsideTest, AnswersAsTheInsideQueryDoes) {
     tests::add_box(overlapping, {1, 1, 1}, {6, 3, 3});
     for (const mesh::LatticeMesh& mesh :
          {tests::on_lattice(tests::bumpy_sphere(5)), tests::on_lattice(overlapping)}) {
-        store(mesh, 5);
+        store(mesh, 8);
         auto stored = StoredInside::open(path_);
         ASSERT_TRUE(stored.has_value()) << stored.error().sentence;
         auto query = InsideQuery::build(mesh);
@@ -97,7 +98,7 @@ TEST_F(StoredInsideTest, AnswersAsTheInsideQueryDoes) {
 
 TEST_F(StoredInsideTest, ReadsNoMoreThanItNeedsAndNoticesWhatIsDamagedThere) {
     const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(5));
-    store(mesh, 5);
+    store(mesh, 8);
     // The triangles come last; a place that is white at once needs none of them.
     std::vector<std::uint8_t> damaged = bytes_;
     damaged.back() ^= 0xff;
@@ -132,7 +133,7 @@ TEST_F(StoredInsideTest, ReadsNoMoreThanItNeedsAndNoticesWhatIsDamagedThere) {
 TEST_F(StoredInsideTest, RefusesOpenSurfacesAndMissingFiles) {
     mesh::Mesh open = tests::bumpy_sphere(2);
     open.triangles.pop_back();
-    store(tests::on_lattice(open), 5);
+    store(tests::on_lattice(open), 8);
     EXPECT_EQ(StoredInside::open(path_).error().code, ErrorCode::not_a_solid);
     EXPECT_EQ(StoredInside::open(path_ + "-not-there").error().code, ErrorCode::io);
 }
