@@ -20,21 +20,13 @@ void Subdivision::begin(const exact::Plane& plane, std::span<const exact::Point>
     reversed_ = plane.normal(axis_) < 0;
     i_ = (axis_ + 1) % 3, j_ = (axis_ + 2) % 3;
     if (reversed_) std::swap(i_, j_);
-    lines_.clear(), vertices_.clear(), triangles_.clear(), owners_.clear(), new_points_.clear();
+    lines_.clear(), vertices_.clear(), owners_.clear(), new_points_.clear();
     vertex_of_.assign(16, no_index);
     hint_ = 0, walk_seed_ = 1;
-    triangles_.push_back({{0, 1, 2}, {no_index, no_index, no_index}, {0, 0, 0}});
-    if (corners.size() == 4) {
-        triangles_.push_back({{0, 2, 3}, {0, no_index, no_index}, {0, 0, 0}});
-        triangles_[0].neighbour[2] = 1;
-    }
+    mesh_.begin(corners.size());
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const exact::Point corner = corners[k];
-        const Vertex vertex{static_cast<double>(corner[i_]),
-                            static_cast<double>(corner[j_]),
-                            ids[k],
-                            k == 3 ? 1u : 0u,
-                            corner,
+        const Vertex vertex{static_cast<double>(corner[i_]), static_cast<double>(corner[j_]), ids[k], corner,
                             Vertex::Kind::lattice};
         push(vertex);
     }
@@ -175,7 +167,7 @@ Subdivision::VertexId Subdivision::vertex_of(PointId id) const {
 Subdivision::VertexId Subdivision::push(PointId id) {
     const Vec3 at = points_.approximation(id);
     const exact::Point* lattice = points_.lattice_point(id);
-    return push({at[i_], at[j_], id, no_index, lattice ? *lattice : exact::Point{},
+    return push({at[i_], at[j_], id, lattice ? *lattice : exact::Point{},
                  lattice ? Vertex::Kind::lattice : Vertex::Kind::table});
 }
 
@@ -190,9 +182,9 @@ Subdivision::VertexId Subdivision::add_point(PointId id) {
 void Subdivision::insert(VertexId vertex) {
     const Location place = locate(vertex);
     if (place.edge < 0)
-        split_triangle(place.triangle, vertex);
+        mesh_.split_triangle(place.triangle, vertex);
     else
-        split_edge(place.triangle, place.edge, vertex);
+        mesh_.split_edge({place.triangle, place.edge}, vertex);
 }
 
 void Subdivision::add_points(std::vector<PointOnLine>& points) {
@@ -229,24 +221,22 @@ void Subdivision::add_points(std::vector<PointOnLine>& points) {
 /// so it ends whatever rounding says.
 void Subdivision::legalise(VertexId vertex) {
     pending_.clear();
-    any_around(vertex, [&](TriangleId t, int) {
+    mesh_.any_around(vertex, [&](TriangleId t, int) {
         pending_.push_back(t);
         return false;
     });
     while (!pending_.empty()) {
         // Flips keep the vertex in all triangles that are pending.
         const TriangleId t = pending_.back();
-        const int k = (index_in(t, vertex) + 1) % 3;
-        const TriangleId across = triangles_[t].neighbour[k];
+        const Edge edge{t, (mesh_.index_in(t, vertex) + 1) % 3}, across = mesh_.across(edge);
         pending_.pop_back();
-        if (across == no_index || triangles_[t].owner[k]) continue;
-        const VertexId a = triangles_[t].v[k], b = triangles_[t].v[(k + 1) % 3];
-        const VertexId apex = triangles_[across].v[(back_index(across, t) + 2) % 3];
+        if (across.triangle == no_index || mesh_.owner(edge)) continue;
+        const VertexId a = mesh_.from(edge), b = mesh_.to(edge), apex = mesh_.apex(across);
         if (!prefers_flip(a, b, vertex, apex)) continue;
         if (turn(vertex, a, apex) != Sign::positive || turn(apex, b, vertex) != Sign::positive) continue;
-        flip(t, k);
+        mesh_.flip(edge);
         pending_.push_back(t);
-        pending_.push_back(across);
+        pending_.push_back(across.triangle);
     }
 }
 
@@ -255,7 +245,7 @@ Subdivision::Location Subdivision::locate(VertexId vertex) {
     // it. The generator starts anew with every plane, so results are reproducible.
     TriangleId at = hint_;
     for (;;) {
-        const Triangle& t = triangles_[at];
+        const Triangle& t = mesh_[at];
         walk_seed_ = walk_seed_ * 1664525u + 1013904223u;
         const int first = static_cast<int>((walk_seed_ >> 24) % 3);
         int edge = -1;
@@ -276,108 +266,12 @@ Subdivision::Location Subdivision::locate(VertexId vertex) {
     }
 }
 
-void Subdivision::split_triangle(TriangleId t0, VertexId p) {
-    const Triangle old = triangles_[t0];
-    const auto t1 = static_cast<TriangleId>(triangles_.size()), t2 = t1 + 1;
-    triangles_.push_back({{old.v[1], old.v[2], p}, {old.neighbour[1], t2, t0}, {old.owner[1], 0, 0}});
-    triangles_.push_back({{old.v[2], old.v[0], p}, {old.neighbour[2], t0, t1}, {old.owner[2], 0, 0}});
-    triangles_[t0] = {{old.v[0], old.v[1], p}, {old.neighbour[0], t1, t2}, {old.owner[0], 0, 0}};
-    if (old.neighbour[1] != no_index)
-        triangles_[old.neighbour[1]].neighbour[back_index(old.neighbour[1], t0)] = t1;
-    if (old.neighbour[2] != no_index)
-        triangles_[old.neighbour[2]].neighbour[back_index(old.neighbour[2], t0)] = t2;
-    vertices_[p].triangle = t0;
-    vertices_[old.v[0]].triangle = t0;
-    vertices_[old.v[1]].triangle = t0;
-    vertices_[old.v[2]].triangle = t1;
-}
-
-void Subdivision::split_edge(TriangleId t, int k, VertexId p) {
-    // t = (a, b, c) with the edge (a, b), u = (b, a, d) across it.
-    const Triangle old = triangles_[t];
-    const VertexId a = old.v[k], b = old.v[(k + 1) % 3], c = old.v[(k + 2) % 3];
-    const TriangleId u = old.neighbour[k], t_bc = old.neighbour[(k + 1) % 3],
-                     t_ca = old.neighbour[(k + 2) % 3];
-    const std::uint32_t own_ab = old.owner[k], own_bc = old.owner[(k + 1) % 3],
-                        own_ca = old.owner[(k + 2) % 3];
-    const auto t1 = static_cast<TriangleId>(triangles_.size());
-    const TriangleId u1 = u == no_index ? no_index : t1 + 1;
-    triangles_.push_back({{p, b, c}, {u, t_bc, t}, {own_ab, own_bc, 0}});
-    triangles_[t] = {{a, p, c}, {u1, t1, t_ca}, {own_ab, 0, own_ca}};
-    if (t_bc != no_index) triangles_[t_bc].neighbour[back_index(t_bc, t)] = t1;
-    if (u != no_index) {
-        const Triangle across = triangles_[u];
-        const int m = back_index(u, t);
-        const VertexId d = across.v[(m + 2) % 3];
-        const TriangleId u_ad = across.neighbour[(m + 1) % 3], u_db = across.neighbour[(m + 2) % 3];
-        const std::uint32_t own_ad = across.owner[(m + 1) % 3], own_db = across.owner[(m + 2) % 3];
-        triangles_.push_back({{p, a, d}, {t, u_ad, u}, {own_ab, own_ad, 0}});
-        triangles_[u] = {{b, p, d}, {t1, u1, u_db}, {own_ab, 0, own_db}};
-        if (u_ad != no_index) triangles_[u_ad].neighbour[back_index(u_ad, u)] = u1;
-        vertices_[d].triangle = u;
-    }
-    vertices_[a].triangle = t;
-    vertices_[c].triangle = t;
-    vertices_[p].triangle = t;
-    vertices_[b].triangle = t1;
-}
-
-/// Replaces the edge k of t, with a triangle on either side, by the other diagonal of the two.
-void Subdivision::flip(TriangleId t, int k) {
-    const Triangle old = triangles_[t];
-    const TriangleId u = old.neighbour[k];
-    const Triangle across = triangles_[u];
-    const int m = back_index(u, t);
-    const VertexId a = old.v[k], b = old.v[(k + 1) % 3], c = old.v[(k + 2) % 3], d = across.v[(m + 2) % 3];
-    const TriangleId t_bc = old.neighbour[(k + 1) % 3], t_ca = old.neighbour[(k + 2) % 3];
-    const TriangleId u_ad = across.neighbour[(m + 1) % 3], u_db = across.neighbour[(m + 2) % 3];
-    triangles_[t] = {{c, a, d}, {t_ca, u_ad, u}, {old.owner[(k + 2) % 3], across.owner[(m + 1) % 3], 0}};
-    triangles_[u] = {{d, b, c}, {u_db, t_bc, t}, {across.owner[(m + 2) % 3], old.owner[(k + 1) % 3], 0}};
-    if (u_ad != no_index) triangles_[u_ad].neighbour[back_index(u_ad, u)] = t;
-    if (t_bc != no_index) triangles_[t_bc].neighbour[back_index(t_bc, t)] = u;
-    vertices_[a].triangle = vertices_[c].triangle = vertices_[d].triangle = t;
-    vertices_[b].triangle = u;
-}
-
-/// Calls visit(triangle, k) for the triangles that have `vertex` as corner k until it returns true.
-template <class Visit>
-bool Subdivision::any_around(VertexId vertex, const Visit& visit) const {
-    const TriangleId start = vertices_[vertex].triangle;
-    TriangleId at = start;
-    do {  // counter-clockwise: out through the edge that ends at the vertex
-        const int k = index_in(at, vertex);
-        if (visit(at, k)) return true;
-        at = triangles_[at].neighbour[(k + 2) % 3];
-    } while (at != no_index && at != start);
-    if (at == start) return false;
-    for (at = triangles_[start].neighbour[index_in(start, vertex)]; at != no_index;) {
-        const int k = index_in(at, vertex);
-        if (visit(at, k)) return true;
-        at = triangles_[at].neighbour[k];
-    }
-    return false;
-}
-
-/// The edge, seen from the triangle that has it as from → to, or else from the other one.
-Subdivision::Edge Subdivision::find_edge(VertexId from, VertexId to) const {
-    Edge edge{no_index, 0};
-    any_around(from, [&](TriangleId t, int k) {
-        if (triangles_[t].v[(k + 1) % 3] == to) edge = {t, k};
-        if (triangles_[t].v[(k + 2) % 3] == to) edge = {t, (k + 2) % 3};
-        return edge.triangle != no_index;
-    });
-    return edge;
-}
-
 void Subdivision::own(Edge edge, std::uint32_t line, std::uint32_t tag) {
-    const std::uint32_t first = triangles_[edge.triangle].owner[edge.k];
+    const std::uint32_t first = mesh_.owner(edge);
     for (std::uint32_t at = first; at; at = owners_[at - 1].next)
         if (owners_[at - 1].tag == tag && owners_[at - 1].line == line) return;
     owners_.push_back({line, tag, first});
-    const auto head = static_cast<std::uint32_t>(owners_.size());
-    triangles_[edge.triangle].owner[edge.k] = head;
-    const TriangleId across = triangles_[edge.triangle].neighbour[edge.k];
-    if (across != no_index) triangles_[across].owner[back_index(across, edge.triangle)] = head;
+    mesh_.set_owner(edge, static_cast<std::uint32_t>(owners_.size()));
 }
 
 void Subdivision::add_segment(VertexId from, VertexId to, LineId line, std::uint32_t tag) {
@@ -389,9 +283,9 @@ Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, LineId li
     // The edge from `from` that runs along the segment, or the edge opposite to `from` that it leaves through.
     Edge along{no_index, 0}, through{no_index, 0};
     VertexId next = no_index;
-    any_around(from, [&](TriangleId t, int k) {  // what is known costs nothing: first of all
+    mesh_.any_around(from, [&](TriangleId t, int k) {  // what is known costs nothing: first of all
         for (int step = 1; step < 3; ++step) {
-            const VertexId neighbour = triangles_[t].v[(k + step) % 3];
+            const VertexId neighbour = mesh_[t].v[(k + step) % 3];
             if (neighbour != to && !(lies_on(neighbour, line) && is_ahead(from, to, neighbour))) continue;
             along = {t, step == 1 ? k : (k + 2) % 3}, next = neighbour;
             return true;
@@ -402,8 +296,8 @@ Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, LineId li
         own(along, line, tag);
         return next;
     }
-    any_around(from, [&](TriangleId t, int k) {
-        const VertexId right = triangles_[t].v[(k + 1) % 3], left = triangles_[t].v[(k + 2) % 3];
+    mesh_.any_around(from, [&](TriangleId t, int k) {
+        const VertexId right = mesh_[t].v[(k + 1) % 3], left = mesh_[t].v[(k + 2) % 3];
         const Sign at_right = turn(from, to, right), at_left = turn(from, to, left);
         if (right == to || (at_right == Sign::zero && is_ahead(from, to, right))) {
             along = {t, k}, next = right;
@@ -422,81 +316,80 @@ Subdivision::VertexId Subdivision::advance(VertexId from, VertexId to, LineId li
         return next;
     }
     OCTAVO_CHECK(through.triangle != no_index, "a segment leaves the triangulation");
+    next = walk(through, from, to, line);
+    force_edge(from, next);
+    own(mesh_.find_edge(from, next), line, tag);
+    return next;
+}
 
-    // Walk on to the next vertex on the segment; a fixed edge in the way makes one.
+/// The next vertex on the segment, which leaves the first triangle through an edge; a fixed edge in the way makes one.
+Subdivision::VertexId Subdivision::walk(Edge through, VertexId from, VertexId to, LineId line) {
     for (Edge edge = through;;) {
-        if (triangles_[edge.triangle].owner[edge.k]) {
-            next = cross(edge, line);
-            break;
-        }
-        const TriangleId t = triangles_[edge.triangle].neighbour[edge.k];
-        OCTAVO_CHECK(t != no_index, "a segment leaves the triangulation");
-        const int m = back_index(t, edge.triangle);
-        const VertexId apex = triangles_[t].v[(m + 2) % 3];
+        if (mesh_.owner(edge)) return cross(edge, line);
+        const Edge across = mesh_.across(edge);
+        OCTAVO_CHECK(across.triangle != no_index, "a segment leaves the triangulation");
+        const VertexId apex = mesh_.apex(across);
         const Sign side = turn(from, to, apex);
         if (apex == to || side == Sign::zero) {
-            next = apex;
-            note(next, line);
-            break;
+            note(apex, line);
+            return apex;
         }
-        edge = {t, side == Sign::positive ? (m + 1) % 3 : (m + 2) % 3};
+        edge = {across.triangle, (across.k + (side == Sign::positive ? 1 : 2)) % 3};
     }
-    force_edge(from, next);
-    own(find_edge(from, next), line, tag);
-    return next;
 }
 
 /// The vertex where a fixed edge meets line `line`.
 Subdivision::VertexId Subdivision::cross(Edge fixed, LineId line) {
-    const Owner& owner = owners_[triangles_[fixed.triangle].owner[fixed.k] - 1];
+    const Owner& owner = owners_[mesh_.owner(fixed) - 1];
     const std::optional<exact::TriplePoint> point =
         exact::intersect(plane_, plane_of(owner.line), plane_of(line));
     OCTAVO_CHECK(point.has_value(), "two segments that cross have parallel planes");
     const auto number = static_cast<std::uint32_t>(new_points_.size());
     new_points_.push_back(*point);
     const LatticeCell cell = lattice_cell(*point);
-    const VertexId vertex =
-        push({point->approximation(i_), point->approximation(j_), new_point + number, no_index, cell.low,
-              cell.is_corner ? Vertex::Kind::lattice : Vertex::Kind::crossing});
+    const VertexId vertex = push({point->approximation(i_), point->approximation(j_), new_point + number,
+                                  cell.low, cell.is_corner ? Vertex::Kind::lattice : Vertex::Kind::crossing});
     note(vertex, owner.line);
     note(vertex, line);
-    split_edge(fixed.triangle, fixed.k, vertex);
+    mesh_.split_edge(fixed, vertex);
     return vertex;
+}
+
+/// Whether the two triangles at an edge make a strictly convex quadrilateral, of which the edge is one diagonal.
+bool Subdivision::may_flip(Edge edge) const {
+    const VertexId a = mesh_.from(edge), b = mesh_.to(edge), c = mesh_.apex(edge),
+                   d = mesh_.apex(mesh_.across(edge));
+    return turn(c, a, d) == Sign::positive && turn(d, b, c) == Sign::positive;
 }
 
 /// Flips the free edges between two vertices until an edge joins them. No vertex lies between them.
 void Subdivision::force_edge(VertexId from, VertexId to) {
-    if (find_edge(from, to).triangle != no_index) return;
+    if (mesh_.find_edge(from, to).triangle != no_index) return;
     in_the_way_.clear();
     Edge edge{no_index, 0};
-    any_around(from, [&](TriangleId t, int k) {
-        const VertexId right = triangles_[t].v[(k + 1) % 3], left = triangles_[t].v[(k + 2) % 3];
+    mesh_.any_around(from, [&](TriangleId t, int k) {
+        const VertexId right = mesh_[t].v[(k + 1) % 3], left = mesh_[t].v[(k + 2) % 3];
         if (turn(from, to, right) == Sign::negative && turn(from, to, left) == Sign::positive)
             edge = {t, (k + 1) % 3};
         return edge.triangle != no_index;
     });
     for (;;) {
-        in_the_way_.push_back(
-            {triangles_[edge.triangle].v[edge.k], triangles_[edge.triangle].v[(edge.k + 1) % 3]});
-        const TriangleId t = triangles_[edge.triangle].neighbour[edge.k];
-        const int m = back_index(t, edge.triangle);
-        const VertexId apex = triangles_[t].v[(m + 2) % 3];
+        in_the_way_.push_back({mesh_.from(edge), mesh_.to(edge)});
+        const Edge across = mesh_.across(edge);
+        const VertexId apex = mesh_.apex(across);
         if (apex == to) break;
-        edge = {t, turn(from, to, apex) == Sign::positive ? (m + 1) % 3 : (m + 2) % 3};
+        edge = {across.triangle, (across.k + (turn(from, to, apex) == Sign::positive ? 1 : 2)) % 3};
     }
     // Each pass over the queue flips at least one edge away; those that cannot be flipped yet wait.
     for (std::size_t at = 0; at < in_the_way_.size(); ++at) {
         const auto [p, q] = in_the_way_[at];
-        const Edge crossing = find_edge(p, q);
-        const Triangle& t = triangles_[crossing.triangle];
-        const TriangleId across = t.neighbour[crossing.k];
-        const VertexId a = t.v[crossing.k], b = t.v[(crossing.k + 1) % 3], c = t.v[(crossing.k + 2) % 3];
-        const VertexId d = triangles_[across].v[(back_index(across, crossing.triangle) + 2) % 3];
-        if (turn(c, a, d) != Sign::positive || turn(d, b, c) != Sign::positive) {
+        const Edge crossing = mesh_.find_edge(p, q);
+        if (!may_flip(crossing)) {
             in_the_way_.push_back({p, q});
             continue;
         }
-        flip(crossing.triangle, crossing.k);
+        const VertexId c = mesh_.apex(crossing), d = mesh_.apex(mesh_.across(crossing));
+        mesh_.flip(crossing);
         const bool still =
             c != from && c != to && d != from && d != to && turn(from, to, c) != turn(from, to, d);
         if (still) in_the_way_.push_back({c, d});
@@ -518,24 +411,22 @@ bool Subdivision::prefers_flip(VertexId a, VertexId b, VertexId c, VertexId d) c
 
 void Subdivision::refine() {
     in_the_way_.clear();
-    for (TriangleId t = 0; t < triangles_.size(); ++t)
-        for (int k = 0; k < 3; ++k)
-            if (triangles_[t].neighbour[k] != no_index && triangles_[t].neighbour[k] > t &&
-                !triangles_[t].owner[k])
-                in_the_way_.push_back({triangles_[t].v[k], triangles_[t].v[(k + 1) % 3]});
+    for (TriangleId t = 0; t < mesh_.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const TriangleId neighbour = mesh_[t].neighbour[k];
+            if (neighbour != no_index && neighbour > t && !mesh_.owner({t, k}))
+                in_the_way_.push_back({mesh_.from({t, k}), mesh_.to({t, k})});
+        }
     const std::size_t limit = 64 * in_the_way_.size() + 64;
     for (std::size_t at = 0; at < in_the_way_.size() && at < limit; ++at) {
         const auto [p, q] = in_the_way_[at];
-        const Edge edge = find_edge(p, q);
+        const Edge edge = mesh_.find_edge(p, q);
         if (edge.triangle == no_index) continue;
-        const Triangle t = triangles_[edge.triangle];
-        const TriangleId across = t.neighbour[edge.k];
-        if (across == no_index || t.owner[edge.k]) continue;
-        const VertexId a = t.v[edge.k], b = t.v[(edge.k + 1) % 3], c = t.v[(edge.k + 2) % 3];
-        const VertexId d = triangles_[across].v[(back_index(across, edge.triangle) + 2) % 3];
-        if (!prefers_flip(a, b, c, d)) continue;
-        if (turn(c, a, d) != Sign::positive || turn(d, b, c) != Sign::positive) continue;
-        flip(edge.triangle, edge.k);
+        const Edge across = mesh_.across(edge);
+        if (across.triangle == no_index || mesh_.owner(edge)) continue;
+        const VertexId a = mesh_.from(edge), b = mesh_.to(edge), c = mesh_.apex(edge), d = mesh_.apex(across);
+        if (!prefers_flip(a, b, c, d) || !may_flip(edge)) continue;
+        mesh_.flip(edge);
         for (const auto& side : {std::pair{b, c}, {c, a}, {a, d}, {d, b}}) in_the_way_.push_back(side);
     }
 }

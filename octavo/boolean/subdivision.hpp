@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <octavo/boolean/point_table.hpp>
+#include <octavo/boolean/triangulation.hpp>
 #include <octavo/exact/plane.hpp>
 
 // A triangulation of a part of one lattice plane that holds given points and segments: the arrangement of all that
@@ -32,20 +33,16 @@ namespace octavo::boolean {
 
 class Subdivision {
   public:
-    using VertexId = std::uint32_t;
-    using TriangleId = std::uint32_t;
+    using VertexId = Triangulation::VertexId;
+    using TriangleId = Triangulation::TriangleId;
+    /// An edge's owner is 1 + the index of the first in its chain, or 0: it is free.
+    using Triangle = Triangulation::Triangle;
 
     /// A chain of what lies on a fixed edge.
     struct Owner {
         std::uint32_t line = 0;  ///< that the segment lies on
         std::uint32_t tag = 0;   ///< the caller's name for the segment
         std::uint32_t next = 0;  ///< 1 + index of the next owner; 0 ends the chain
-    };
-
-    struct Triangle {
-        VertexId v[3];
-        TriangleId neighbour[3];  ///< across the edge from v[k] to v[k + 1]; no_index outside
-        std::uint32_t owner[3];   ///< 1 + index of the first owner of that edge; 0: the edge is free
     };
 
     /// `cut_planes` are the planes that lines of this number lie in; they must stay.
@@ -93,7 +90,7 @@ class Subdivision {
     /// edge and never so that a triangle turns over.
     void refine();
 
-    std::span<const Triangle> triangles() const { return triangles_; }
+    std::span<const Triangle> triangles() const { return mesh_.triangles(); }
     const Owner& owner(std::uint32_t index) const { return owners_[index]; }
     std::size_t vertices() const { return vertices_.size(); }
 
@@ -110,7 +107,6 @@ class Subdivision {
     struct Vertex {
         double x, y;  ///< seen along the dominant axis, from the front
         std::uint32_t id;
-        TriangleId triangle;   ///< one that has it as a corner
         exact::Point lattice;  ///< where kind says so
         enum class Kind : std::uint8_t { lattice, table, crossing } kind;
         std::array<LineId, 4> lines{no_line, no_line, no_line, no_line};  ///< that it is known to lie on
@@ -119,10 +115,7 @@ class Subdivision {
         TriangleId triangle;
         int edge;  ///< of the triangle, on which the point lies; -1: inside
     };
-    struct Edge {
-        TriangleId triangle;
-        int k;
-    };
+    using Edge = Triangulation::Edge;
 
     VertexId push(const Vertex& vertex);
     VertexId push(PointId id);
@@ -140,28 +133,12 @@ class Subdivision {
     exact::Sign exact_turn(const Vertex& a, const Vertex& b, const Vertex& c) const;
     bool is_ahead(VertexId from, VertexId to, VertexId vertex) const;
     Location locate(VertexId vertex);
-    void split_triangle(TriangleId triangle, VertexId vertex);
-    void split_edge(TriangleId triangle, int k, VertexId vertex);
-    void flip(TriangleId triangle, int k);
-    Edge find_edge(VertexId from, VertexId to) const;
-    template <class Visit>
-    bool any_around(VertexId vertex, const Visit& visit) const;
     void own(Edge edge, std::uint32_t line, std::uint32_t tag);
     VertexId advance(VertexId from, VertexId to, LineId line, std::uint32_t tag);
+    VertexId walk(Edge through, VertexId from, VertexId to, LineId line);
     VertexId cross(Edge fixed, LineId line);
+    bool may_flip(Edge edge) const;
     void force_edge(VertexId from, VertexId to);
-    int index_in(TriangleId triangle, VertexId vertex) const {
-        const Triangle& t = triangles_[triangle];
-        return t.v[0] == vertex ? 0 : t.v[1] == vertex ? 1 : 2;
-    }
-    int back_index(TriangleId triangle, TriangleId neighbour) const {
-        const Triangle& t = triangles_[triangle];
-        return t.neighbour[0] == neighbour ? 0 : t.neighbour[1] == neighbour ? 1 : 2;
-    }
-    void link(TriangleId triangle, int k, TriangleId neighbour, int back) {
-        triangles_[triangle].neighbour[k] = neighbour;
-        if (neighbour != no_index) triangles_[neighbour].neighbour[back] = triangle;
-    }
 
     const PointTable& points_;
     std::span<const exact::Plane> cut_planes_;
@@ -170,7 +147,7 @@ class Subdivision {
     bool reversed_ = false;
     std::vector<exact::Plane> lines_;
     std::vector<Vertex> vertices_;
-    std::vector<Triangle> triangles_;
+    Triangulation mesh_;
     std::vector<Owner> owners_;
     std::vector<exact::TriplePoint> new_points_;
     std::vector<std::uint32_t> vertex_of_;  ///< hash of point id to vertex
