@@ -186,48 +186,6 @@ TEST(Flush, GivesRandomTurnedAssembliesTheShellsAndVolumeOfTheGrid) {
     EXPECT_LE(unsettled, 1 + cases / 200);
 }
 
-/// A unit box with a vertex in the middle of its edge along z at (1, 1): one of the two facets there is split, and the
-/// gap is closed by a facet without area, or by nothing.
-mesh::Mesh box_with_t_junction(bool with_flat_facet) {
-    mesh::Mesh mesh = box({0, 0, 0}, {1, 1, 1});
-    const auto at = [&](Vec3 place) {
-        return static_cast<std::uint32_t>(std::find(mesh.vertices.begin(), mesh.vertices.end(), place) -
-                                          mesh.vertices.begin());
-    };
-    const std::uint32_t low = at({1, 1, 0}), high = at({1, 1, 1}), middle = 8;
-    mesh.vertices.push_back({1, 1, 0.5});
-    for (mesh::Triangle& t : mesh.triangles)
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (t[k] != low || t[(k + 1) % 3] != high) continue;
-            const std::uint32_t apex = t[(k + 2) % 3];
-            t = {low, middle, apex};
-            mesh.triangles.push_back({middle, high, apex});
-            if (with_flat_facet) mesh.triangles.push_back({low, high, middle});
-            return mesh;
-        }
-    ADD_FAILURE() << "no facet runs up the edge";
-    return mesh;
-}
-
-TEST(Flush, MovesNoVertexThatASurfaceClosesBy) {
-    const Vec3 near{1.001, 1.0005, 0.5};
-    mesh::Mesh other;
-    other.vertices = {near, {3, 1, 0}, {3, 3, 0}, {2, 2, 2}};
-    other.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
-    for (const bool with_flat_facet : {false, true})
-        for (const bool first : {false, true}) {
-            const mesh::Mesh body = box_with_t_junction(with_flat_facet);
-            const std::vector<mesh::Mesh> parts = first ? std::vector{body, other} : std::vector{other, body};
-            const Result<Evaluated> exact = unite(parts);
-            const Result<Evaluated> joined = unite(parts, {.tolerance = {0.002, Tolerance::Of::length}});
-            ASSERT_TRUE(exact) << exact.error().sentence;
-            ASSERT_TRUE(joined) << joined.error().sentence;
-            EXPECT_EQ(tests::manifold_defect(joined->mesh), "");
-            EXPECT_EQ(joined->report.flush.merged_vertices, 1u);
-            EXPECT_NEAR(tests::volume_of(joined->mesh), tests::volume_of(exact->mesh), 0.01);
-        }
-}
-
 /// A parallelepiped or something like it, with corners on a small grid, often flat, thin or folded.
 mesh::Mesh random_hexahedron(std::mt19937& random) {
     const auto point = [&] {

@@ -302,4 +302,28 @@ inline std::string manifold_defect(const mesh::Mesh& mesh) {
     return "";
 }
 
+/// Several bodies as one operand, which then intersects itself.
+inline mesh::Mesh joined(const std::vector<Convex>& bodies) {
+    mesh::Mesh all;
+    for (const Convex& body : bodies) {
+        const auto first = static_cast<std::uint32_t>(all.vertices.size());
+        all.vertices.insert(all.vertices.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
+        for (const mesh::Triangle& t : body.mesh.triangles)
+            all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return all;
+}
+
+/// Of the facets from `first` on.
+inline double area_of(const mesh::Mesh& mesh, std::size_t first = 0) {
+    double area = 0;
+    for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
+        const mesh::Triangle& t = mesh.triangles[i];
+        area += length(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+                             mesh.vertices[t[2]] - mesh.vertices[t[0]])) /
+                2;
+    }
+    return area;
+}
+
 }  // namespace octavo::tests
