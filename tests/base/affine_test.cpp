@@ -3,10 +3,11 @@
 #include <cmath>
 #include <random>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/base/any_scale.hpp>
+
+#include "unlimited.hpp"
 
 namespace octavo {
 namespace {
@@ -28,7 +29,7 @@ TEST(Affine, MirrorsWhateverItsScaleIs) {
 }
 
 TEST(Affine, TheSignOfTheDeterminantIsThatOfRationals) {
-    using Rational = boost::multiprecision::cpp_rational;
+    using octavo::tests::Rational;
     std::mt19937_64 random(3);
     const auto below = [&](int n) { return static_cast<int>(random() % static_cast<std::uint64_t>(n)); };
     int flat = 0;

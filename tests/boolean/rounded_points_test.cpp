@@ -2,42 +2,43 @@
 #include <cmath>
 #include <random>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/boolean/rounded_points.hpp>
 #include <octavo/exact/intersect.hpp>
 
+#include "unlimited.hpp"
+
 namespace octavo::boolean {
 namespace {
 
-using boost::multiprecision::cpp_int;
-using boost::multiprecision::cpp_rational;
 using exact::Point;
+using octavo::tests::Integer;
+using octavo::tests::Rational;
 
 template <int Limbs>
-cpp_int number(const exact::WideInt<Limbs>& wide) {
+Integer number(const exact::WideInt<Limbs>& wide) {
     const bool negative = wide.negative();
     const exact::WideInt<Limbs> magnitude = exact::negate_if(negative, wide);
-    cpp_int result = 0;
+    Integer result = 0;
     for (int i = Limbs; i-- > 0;) result = (result << 64) + magnitude.limb[static_cast<std::size_t>(i)];
-    return negative ? cpp_int(-result) : result;
+    return negative ? Integer(-result) : result;
 }
 
 /// A coordinate in lattice units from the world's origin.
 template <class P>
-cpp_rational place(const P& point, int axis, std::int64_t origin) {
-    return cpp_rational(number(point.numerator(axis)), number(point.weight())) + origin;
+Rational place(const P& point, int axis, std::int64_t origin) {
+    return Rational(number(point.numerator(axis)), number(point.weight())) + origin;
 }
 
 /// The distance of the two numbers about a number, but no less than the finest that points are rounded to.
-cpp_rational spacing(const cpp_rational& at, Numbers numbers) {
+Rational spacing(const Rational& at, Numbers numbers) {
     const double near = std::fabs(static_cast<double>(at));
     const auto from = static_cast<float>(near);
     const double distance = numbers == Numbers::doubles
                                 ? std::nextafter(near, 2 * near + 1) - near
                                 : double{std::nextafter(from, 2 * from + 1)} - double{from};
-    return cpp_rational(std::max(distance, numbers == Numbers::floats ? 0x1p-24 : 0x1p-36));
+    return Rational(std::max(distance, numbers == Numbers::floats ? 0x1p-24 : 0x1p-36));
 }
 
 Point random_point(std::mt19937& random, std::int32_t side) {
@@ -77,13 +78,13 @@ void expect_nearest(Numbers numbers) {
                 const Vec3 world = rounded.world(id);
                 bool any_moved = false;
                 for (int axis = 0; axis < 3; ++axis) {
-                    const cpp_rational exact_place = place(point, axis, origin);
-                    const cpp_rational found = cpp_rational(world[axis]) * 16;
-                    const cpp_rational off = abs(cpp_rational(found - exact_place));
-                    EXPECT_LE(off, spacing(exact_place, numbers) * cpp_rational(1001, 2000))
+                    const Rational exact_place = place(point, axis, origin);
+                    const Rational found = Rational(world[axis]) * 16;
+                    const Rational off = abs(Rational(found - exact_place));
+                    EXPECT_LE(off, spacing(exact_place, numbers) * Rational(1001, 2000))
                         << "origin " << origin;
-                    EXPECT_LE(off, cpp_rational(rounded.largest_rounding()) * 16);
-                    EXPECT_EQ(found, cpp_rational(rounded[id][static_cast<std::size_t>(axis)]) /
+                    EXPECT_LE(off, Rational(rounded.largest_rounding()) * 16);
+                    EXPECT_EQ(found, Rational(rounded[id][static_cast<std::size_t>(axis)]) /
                                              (std::int64_t{1} << RoundedPoints::fraction_bits) +
                                          origin);
                     any_moved = any_moved || off != 0;
@@ -145,13 +146,13 @@ TEST(RoundedPoints, HaveExactPredicates) {
         if (run % 3 == 1)
             for (std::size_t k = 0; k < 3; ++k)
                 p[3][k] = p[0][k] / 2 + p[1][k] / 2 + static_cast<int>(random() % 2);
-        cpp_int u[3], v[3], w[3];
+        Integer u[3], v[3], w[3];
         for (std::size_t k = 0; k < 3; ++k)
-            u[k] = cpp_int(p[1][k]) - p[0][k], v[k] = cpp_int(p[2][k]) - p[0][k],
-            w[k] = cpp_int(p[3][k]) - p[0][k];
-        const cpp_int normal[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+            u[k] = Integer(p[1][k]) - p[0][k], v[k] = Integer(p[2][k]) - p[0][k],
+            w[k] = Integer(p[3][k]) - p[0][k];
+        const Integer normal[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
                                    u[0] * v[1] - u[1] * v[0]};
-        const cpp_int volume = normal[0] * w[0] + normal[1] * w[1] + normal[2] * w[2];
+        const Integer volume = normal[0] * w[0] + normal[1] * w[1] + normal[2] * w[2];
         EXPECT_EQ(static_cast<int>(orient3d(p[0], p[1], p[2], p[3])), volume.sign());
         for (int axis = 0; axis < 3; ++axis)
             EXPECT_EQ(static_cast<int>(orient2d(axis, p[0], p[1], p[2])), normal[axis].sign());

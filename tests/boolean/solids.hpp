@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include <octavo/mesh/mesh.hpp>
+
+#include "unlimited.hpp"
 
 // Small solids on an integer grid, made to touch and coincide, and what the results of set operations on them
 // must be. Nothing here uses the code under test: convex bodies are kept as half-spaces, their intersections are
@@ -132,7 +132,6 @@ Convex random_convex(Random& random, int side) {
 }
 
 /// An exact number. Volumes here are fractions of small denominators.
-using Rational = boost::multiprecision::cpp_rational;
 
 /// x / w, y / w, z / w, w > 0, without a common divisor.
 using Corner = std::array<std::int64_t, 4>;
@@ -155,13 +154,12 @@ class VolumeSum {
         numerator_[Wide{a[3]} * b[3] * c[3]] += determinant;
     }
     Rational volume() const {
-        using boost::multiprecision::cpp_int;
-        cpp_int numerator = 0, denominator = 6;
+        Integer numerator = 0, denominator = 6;
         for (const auto& [part_denominator, part] : numerator_) {
             numerator *= part_denominator;
             numerator += part * denominator / 6;
             denominator *= part_denominator;
-            const cpp_int divisor = gcd(numerator, denominator / 6);
+            const Integer divisor = gcd(numerator, denominator / 6);
             numerator /= divisor, denominator /= divisor;
         }
         return Rational(numerator, denominator);

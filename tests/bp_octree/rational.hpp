@@ -4,15 +4,13 @@
 #include <array>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include <octavo/bp_octree/frame.hpp>
+
+#include "unlimited.hpp"
 
 // The oracle of the tests: triangles clipped by boxes in rational numbers.
 
 namespace octavo::tests {
-
-using Rational = boost::multiprecision::cpp_rational;
 using RationalPoint = std::array<Rational, 3>;
 
 inline RationalPoint doubled(exact::Point p) {

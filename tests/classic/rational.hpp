@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include <octavo/mesh/mesh.hpp>
+
+#include "unlimited.hpp"
 
 // Slow and obviously right geometry in unlimited numbers: the oracle of octrees and inside answers. It shares no
 // formula with the library: overlap is by clipping in rationals, winding numbers are by rays in oblique directions
@@ -17,7 +17,6 @@
 
 namespace octavo::tests {
 
-using Rational = boost::multiprecision::cpp_rational;
 using RationalPoint = std::array<Rational, 3>;
 
 inline RationalPoint rational(exact::Point p) { return {p.x, p.y, p.z}; }
@@ -83,7 +82,6 @@ inline bool meets_half_open_box(const std::array<exact::Point, 3>& triangle, exa
     return true;
 }
 
-using Integer = boost::multiprecision::cpp_int;
 using IntegerPoint = std::array<Integer, 3>;
 
 /// A surface whose coordinates are multiplied by `scale`, so that points with that denominator are integers.

@@ -5,15 +5,16 @@
 #include <random>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/csg/convex_overlap.hpp>
 
+#include "unlimited.hpp"
+
 namespace octavo::csg {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using octavo::tests::Rational;
 using Point = std::array<Rational, 3>;
 
 struct RationalPlane {

@@ -4,16 +4,17 @@
 #include <random>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/csg/lattice_polyhedron.hpp>
 #include <octavo/csg/tessellate.hpp>
 
+#include "unlimited.hpp"
+
 namespace octavo::csg {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using octavo::tests::Rational;
 using Point = std::array<Rational, 3>;
 
 /// Whether a triangle meets the open cube: its part in the closed cube has a mean strictly inside.

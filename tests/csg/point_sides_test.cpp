@@ -2,7 +2,6 @@
 #include <array>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/csg/body_in_cells.hpp>
@@ -13,13 +12,14 @@
 #include <octavo/csg/prune.hpp>
 
 #include "random_solids.hpp"
+#include "unlimited.hpp"
 
 // The sides of points and cells that SIMD lanes in single precision say, against rationals.
 
 namespace octavo::csg {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using octavo::tests::Rational;
 using octree::Cell;
 
 /// A point in eighths of a cell from its low corner, in lattice coordinates.

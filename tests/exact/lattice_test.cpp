@@ -2,17 +2,17 @@
 #include <cmath>
 #include <limits>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/exact/lattice.hpp>
 
 #include "exact/generator.hpp"
+#include "unlimited.hpp"
 
 namespace octavo::exact {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using octavo::tests::Rational;
 using tests::Generator;
 
 /// A world coordinate in units of the lattice, relative to its origin; exact.

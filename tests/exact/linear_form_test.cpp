@@ -14,19 +14,20 @@
 namespace octavo::exact {
 namespace {
 
+using oracle::Integer;
 using tests::Generator;
 
 // All finite doubles are multiples of 2^-1074, so that one scale makes the whole form an integer.
-using Giant = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
-    2560, 2560, boost::multiprecision::signed_magnitude, boost::multiprecision::checked, void>>;
 
-Giant giant(std::int64_t number, int exponent) { return Giant(number) * (Giant(1) << (exponent + 1074)); }
-Giant giant(double number) {
+Integer scaled(std::int64_t number, int exponent) {
+    return Integer(number) << static_cast<unsigned>(exponent + 1074);
+}
+Integer scaled(double number) {
     int exponent = 0;
     const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(number, &exponent), 53));
-    if (exponent - 53 >= -1074) return giant(mantissa, exponent - 53);
-    return Giant(mantissa /
-                 (std::int64_t{1} << (-1074 - exponent + 53)));  // subnormal: the low bits are zero
+    if (exponent - 53 >= -1074) return scaled(mantissa, exponent - 53);
+    return Integer(mantissa /
+                   (std::int64_t{1} << (-1074 - exponent + 53)));  // subnormal: the low bits are zero
 }
 
 struct Form {
@@ -36,10 +37,8 @@ struct Form {
 };
 
 Sign oracle_sign(const Form& form, Vec3 p) {
-    const Giant offset = Giant(static_cast<std::int64_t>(form.d >> 60)) * (Giant(1) << 60) +
-                         Giant(static_cast<std::int64_t>(form.d & ((int128{1} << 60) - 1)));
-    const Giant sum = Giant(form.a) * giant(p.x) + Giant(form.b) * giant(p.y) + Giant(form.c) * giant(p.z) +
-                      offset * (Giant(1) << (form.exponent + 1074));
+    const Integer sum = form.a * scaled(p.x) + form.b * scaled(p.y) + form.c * scaled(p.z) +
+                        (Integer(form.d) << static_cast<unsigned>(form.exponent + 1074));
     return static_cast<Sign>(sum.sign());
 }
 

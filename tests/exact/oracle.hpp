@@ -3,27 +3,21 @@
 
 #include <array>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include <octavo/exact/homogeneous_point.hpp>
 #include <octavo/exact/plane.hpp>
 
-// The textbook formulas on Boost's integers of 1280 bits, which throw when they overflow. They share no
-// formula with the kernel: three planes meet by Cramer's rule on Sarrus determinants, an edge meets a plane
-// by its parameter, and signs of weights are handled at the end instead of at the start.
+#include "unlimited.hpp"
+
+// The textbook formulas on integers without limit. They share no formula with the kernel: three planes meet by
+// Cramer's rule on Sarrus determinants, an edge meets a plane by its parameter, and signs of weights are handled at
+// the end instead of at the start.
 
 namespace octavo::exact::oracle {
 
-using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
-    1280, 1280, boost::multiprecision::signed_magnitude, boost::multiprecision::checked, void>>;
+using octavo::tests::Integer;
 
 inline Integer integer(std::int64_t number) { return Integer(number); }
-inline Integer integer(int128 number) {
-    const uint128 magnitude = number < 0 ? -static_cast<uint128>(number) : static_cast<uint128>(number);
-    const Integer positive = (Integer(static_cast<std::uint64_t>(magnitude >> 64)) << 64) +
-                             Integer(static_cast<std::uint64_t>(magnitude));
-    return number < 0 ? Integer(-positive) : positive;
-}
+inline Integer integer(int128 number) { return Integer(number); }
 template <int Limbs>
 Integer integer(const WideInt<Limbs>& number) {
     // Two's complement by its definition: the top bit weighs minus its value.
@@ -38,15 +32,19 @@ struct Vector {
     Integer x, y, z;
 };
 inline Vector vector(Point p) { return {Integer(p.x), Integer(p.y), Integer(p.z)}; }
-inline Vector operator-(const Vector& p, const Vector& q) {
-    return {Integer(p.x - q.x), Integer(p.y - q.y), Integer(p.z - q.z)};
+inline Vector operator-(const Vector& p, const Vector& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
+inline Integer dot(const Vector& p, const Vector& q) {
+    return (p.x * q.x).add_product(p.y, q.y).add_product(p.z, q.z);
 }
-inline Integer dot(const Vector& p, const Vector& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
 
 /// The determinant of three rows, by Sarrus' rule.
 inline Integer determinant(const Vector& p, const Vector& q, const Vector& r) {
-    return p.x * q.y * r.z + p.y * q.z * r.x + p.z * q.x * r.y - p.z * q.y * r.x - p.x * q.z * r.y -
-           p.y * q.x * r.z;
+    return (p.x * q.y * r.z)
+        .add_product(p.y * q.z, r.x)
+        .add_product(p.z * q.x, r.y)
+        .subtract_product(p.z * q.y, r.x)
+        .subtract_product(p.x * q.z, r.y)
+        .subtract_product(p.y * q.x, r.z);
 }
 
 inline Vector normal(const Plane& plane) {
@@ -68,7 +66,7 @@ inline Fraction meet(Point p, Point q, const Plane& plane) {
     const Integer w = dot(normal(plane), direction);
     const Integer value = dot(normal(plane), vector(p)) + integer(plane.d());
     const auto coordinate = [&](const Integer& start, const Integer& step) {
-        return Integer(start * w - value * step);
+        return (start * w).subtract_product(value, step);
     };
     return {{coordinate(p.x, direction.x), coordinate(p.y, direction.y), coordinate(p.z, direction.z)}, w};
 }
@@ -87,13 +85,13 @@ inline Fraction meet(const Plane& first, const Plane& second, const Plane& third
 }
 
 inline Sign side_of(const Plane& plane, const Fraction& p) {
-    return sign(dot(normal(plane), p.v) + integer(plane.d()) * p.w) * sign(p.w);
+    return sign(dot(normal(plane), p.v).add_product(integer(plane.d()), p.w)) * sign(p.w);
 }
 inline Sign side_of(const AxisPlane& plane, const Fraction& p) {
     return sign(2 * p[plane.axis] - plane.twice * p.w) * sign(p.w);
 }
 inline Sign compare_coordinate(int axis, const Fraction& p, const Fraction& q) {
-    return sign(p[axis] * q.w - q[axis] * p.w) * sign(p.w) * sign(q.w);
+    return sign((p[axis] * q.w).subtract_product(q[axis], p.w)) * sign(p.w) * sign(q.w);
 }
 inline Sign compare(const Fraction& p, const Fraction& q) {
     for (int axis = 0; axis < 3; ++axis)

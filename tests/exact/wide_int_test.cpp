@@ -103,15 +103,16 @@ TEST(WideInt, WideningKeepsTheValue) {
 double nearest_double(const Integer& number) {
     Integer magnitude = abs(number);
     if (magnitude == 0) return 0;
-    const int length = static_cast<int>(msb(magnitude)) + 1;
+    const int length = static_cast<int>(magnitude.bits());
     int exponent = 0;
     if (length > 53) {
         exponent = length - 53;
-        const Integer rest = magnitude % (Integer(1) << exponent), half = Integer(1) << (exponent - 1);
-        magnitude >>= exponent;
-        if (rest > half || (rest == half && magnitude % 2 == 1)) ++magnitude;
+        const Integer rest = magnitude % (Integer(1) << static_cast<unsigned>(exponent)),
+                      half = Integer(1) << static_cast<unsigned>(exponent - 1);
+        magnitude >>= static_cast<unsigned>(exponent);
+        if (rest > half || (rest == half && magnitude % 2 == 1)) magnitude += 1;
     }
-    const double result = std::ldexp(static_cast<double>(magnitude.convert_to<std::int64_t>()), exponent);
+    const double result = std::ldexp(static_cast<double>(magnitude), exponent);
     return number < 0 ? -result : result;
 }
 

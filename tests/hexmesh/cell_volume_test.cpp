@@ -4,32 +4,33 @@
 #include <random>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/classic/crossing.hpp>
 #include <octavo/exact/int128.hpp>
 #include <octavo/hexmesh/cell_volume.hpp>
 
+#include "unlimited.hpp"
+
 namespace octavo::hexmesh {
 namespace {
 
-using boost::multiprecision::cpp_rational;
 using exact::Point;
+using octavo::tests::Rational;
 using octree::Cell;
-using RationalPoint = std::array<cpp_rational, 3>;
+using RationalPoint = std::array<Rational, 3>;
 using Face = std::vector<RationalPoint>;
 
 /// The part of a closed convex polyhedron with sign · (coordinate − bound) ≥ 0, in exact rationals.
-std::vector<Face> cut(const std::vector<Face>& faces, std::size_t axis, const cpp_rational& bound, int sign) {
+std::vector<Face> cut(const std::vector<Face>& faces, std::size_t axis, const Rational& bound, int sign) {
     std::vector<Face> result;
     std::vector<RationalPoint> cap;
-    const auto above = [&](const RationalPoint& p) -> cpp_rational { return sign * (p[axis] - bound); };
+    const auto above = [&](const RationalPoint& p) -> Rational { return sign * (p[axis] - bound); };
     for (const Face& face : faces) {
         Face kept;
         for (std::size_t i = 0; i < face.size(); ++i) {
             const RationalPoint &a = face[i], &b = face[(i + 1) % face.size()];
-            const cpp_rational da = above(a), db = above(b);
+            const Rational da = above(a), db = above(b);
             if (da >= 0) kept.push_back(a);
             if (da == 0) cap.push_back(a);
             if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
@@ -47,8 +48,8 @@ std::vector<Face> cut(const std::vector<Face>& faces, std::size_t axis, const cp
 }
 
 /// Volume by tetrahedra from `apex`, which must lie on every cap that is missing.
-cpp_rational volume_from(const std::vector<Face>& faces, const RationalPoint& apex) {
-    cpp_rational six = 0;
+Rational volume_from(const std::vector<Face>& faces, const RationalPoint& apex) {
+    Rational six = 0;
     for (const Face& face : faces)
         for (std::size_t i = 2; i < face.size(); ++i) {
             std::array<RationalPoint, 3> e;
@@ -64,8 +65,8 @@ cpp_rational volume_from(const std::vector<Face>& faces, const RationalPoint& ap
 
 /// Volume of tetrahedron ∩ {low ≤ p ≤ high}: the tetrahedron is the union of signed cones, so inclusion of orthants
 /// gives a box: V[low, high] = Σ ± V(orthant), and an orthant's three caps share their corner as apex.
-cpp_rational volume_in_orthant(const std::array<Point, 4>& tetrahedron,
-                               const std::array<std::int64_t, 3>& corner) {
+Rational volume_in_orthant(const std::array<Point, 4>& tetrahedron,
+                           const std::array<std::int64_t, 3>& corner) {
     constexpr std::array<std::array<std::size_t, 3>, 4> sides{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
     std::vector<Face> faces;
     for (const auto& side : sides) {
@@ -77,25 +78,25 @@ cpp_rational volume_in_orthant(const std::array<Point, 4>& tetrahedron,
     RationalPoint apex;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         apex[axis] = corner[axis];
-        faces = cut(faces, axis, cpp_rational(corner[axis]), 1);
+        faces = cut(faces, axis, Rational(corner[axis]), 1);
     }
     return volume_from(faces, apex);
 }
 
 double expected_part(const std::array<Point, 4>& tetrahedron, const Cell& cell) {
-    cpp_rational volume = 0;
+    Rational volume = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const Point low = cell.low, high = cell.high();
         const std::array<std::int64_t, 3> at{corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
                                              corner & 4 ? high.z : low.z};
-        const cpp_rational part = volume_in_orthant(tetrahedron, at);
+        const Rational part = volume_in_orthant(tetrahedron, at);
         if (std::popcount(static_cast<unsigned>(corner)) % 2)
             volume -= part;
         else
             volume += part;
     }
-    const cpp_rational side = cell.side();
-    return static_cast<double>(cpp_rational(volume / (side * side * side)));
+    const Rational side = cell.side();
+    return static_cast<double>(Rational(volume / (side * side * side)));
 }
 
 /// The facets that meet the open cell: those with a part of positive area when clipped to it, in exact rationals, that
@@ -117,7 +118,7 @@ std::vector<std::uint32_t> met_by(const Cell& cell, const std::vector<classic::F
         RationalPoint sum{};
         for (const RationalPoint& p : face)
             for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += p[axis];
-        const cpp_rational count(face.size());
+        const Rational count(face.size());
         bool inside = !face.empty();
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<int>(axis);

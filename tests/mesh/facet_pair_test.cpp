@@ -5,18 +5,18 @@
 #include <random>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/mesh/facet_octree.hpp>
 #include <octavo/mesh/facet_pair.hpp>
 
 #include "effort.hpp"
+#include "unlimited.hpp"
 
 namespace octavo::mesh {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using octavo::tests::Rational;
 using Vector = std::array<Rational, 3>;
 using exact::Point;
 

@@ -3,7 +3,6 @@
 #include <numeric>
 #include <random>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/mesh/measure.hpp>
@@ -11,11 +10,13 @@
 #include <octavo/mesh/transform.hpp>
 
 #include "surfaces.hpp"
+#include "unlimited.hpp"
 
 namespace octavo::mesh {
 namespace {
 
-using boost::multiprecision::cpp_rational;
+using octavo::tests::Integer;
+using octavo::tests::Rational;
 
 TEST(Measure, OfABoxIsTheTextbook) {
     const Measures m = measure(box({1, 2, 3}, {3, 5, 7}));
@@ -38,18 +39,18 @@ TEST(Measure, OfABoxIsTheTextbook) {
 
 /// Volume and second moments by rational arithmetic, from another decomposition (tetrahedra with the origin).
 struct RationalMoments {
-    cpp_rational volume, x, xx, xy;
+    Rational volume, x, xx, xy;
 };
 
 RationalMoments rational_moments(const Mesh& mesh) {
     RationalMoments sum;
     for (const Triangle& t : mesh.triangles) {
-        std::array<std::array<cpp_rational, 3>, 3> p;
+        std::array<std::array<Rational, 3>, 3> p;
         for (int i = 0; i < 3; ++i)
-            for (int axis = 0; axis < 3; ++axis) p[i][axis].assign(mesh.vertices[t[i]][axis]);
-        const cpp_rational det = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
-                                 p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
-                                 p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+            for (int axis = 0; axis < 3; ++axis) p[i][axis] = Rational(mesh.vertices[t[i]][axis]);
+        const Rational det = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
+                             p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
+                             p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
         sum.volume += det / 6;
         sum.x += det * (p[0][0] + p[1][0] + p[2][0]) / 24;
         for (int i = 0; i < 3; ++i)
@@ -69,15 +70,15 @@ TEST(Measure, AgreesWithRationalArithmetic) {
         mesh = transform(mesh, compose(translation({5, -3, 2}), rotation({1, 2, 3}, 33)));
         const RationalMoments exact = rational_moments(mesh);
         const Measures m = measure(mesh);
-        const double volume = exact.volume.convert_to<double>();
+        const double volume = static_cast<double>(exact.volume);
         EXPECT_NEAR(m.volume, volume, 1e-12 * volume);
-        EXPECT_NEAR(m.centroid.x, (exact.x / exact.volume).convert_to<double>(), 1e-12 * 5);
-        const cpp_rational xy = exact.xy;
+        EXPECT_NEAR(m.centroid.x, static_cast<double>(exact.x / exact.volume), 1e-12 * 5);
+        const Rational xy = exact.xy;
         const double off = m.inertia[0][1] - m.volume * m.centroid.x * m.centroid.y;
-        EXPECT_NEAR(-off, xy.convert_to<double>(), 1e-10 * std::max(1.0, std::fabs(xy.convert_to<double>())));
+        EXPECT_NEAR(-off, static_cast<double>(xy), 1e-10 * std::max(1.0, std::fabs(static_cast<double>(xy))));
         const double half_trace = (m.inertia[1][1] + m.inertia[2][2] - m.inertia[0][0]) / 2;
-        EXPECT_NEAR(half_trace + m.volume * m.centroid.x * m.centroid.x, exact.xx.convert_to<double>(),
-                    1e-10 * std::fabs(exact.xx.convert_to<double>()));
+        EXPECT_NEAR(half_trace + m.volume * m.centroid.x * m.centroid.x, static_cast<double>(exact.xx),
+                    1e-10 * std::fabs(static_cast<double>(exact.xx)));
     }
 }
 
@@ -140,17 +141,16 @@ TEST(ExactVolume, IsTheIntegerThatRationalsGive) {
         const auto snapped = snap(mesh);
         ASSERT_TRUE(snapped);
         const LatticeMesh& lattice = snapped->mesh;
-        boost::multiprecision::cpp_int sum = 0;
+        Integer sum = 0;
         for (const Triangle& t : lattice.triangles) {
             // A different formula: a · ((b − a) × (c − a)).
             const exact::Point a = lattice.points[t[0]], b = lattice.points[t[1]], c = lattice.points[t[2]];
-            using Int = boost::multiprecision::cpp_int;
-            const Int ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-            const Int vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+            const Integer ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+            const Integer vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
             sum += a.x * (uy * vz - uz * vy) + a.y * (uz * vx - ux * vz) + a.z * (ux * vy - uy * vx);
         }
         const exact::int128 found = exact_volume6(lattice);
-        EXPECT_EQ(boost::multiprecision::cpp_int(found), sum);
+        EXPECT_EQ(Integer(found), sum);
         const double unit = lattice.lattice.unit();
         EXPECT_NEAR(static_cast<double>(found) / 6 * unit * unit * unit, measure(mesh).volume,
                     1e-5 * measure(mesh).volume);

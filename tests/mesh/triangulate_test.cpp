@@ -6,17 +6,18 @@
 #include <numbers>
 #include <random>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/mesh/transform.hpp>
 #include <octavo/mesh/triangulate.hpp>
 
+#include "unlimited.hpp"
+
 namespace octavo::mesh {
 namespace {
 
-using boost::multiprecision::cpp_rational;
+using octavo::tests::Rational;
 
 struct Face {
     std::vector<Vec3> vertices;
@@ -35,10 +36,9 @@ struct Face {
     }
 };
 
-cpp_rational cross_of(Vec3 a, Vec3 b, Vec3 c) {
-    const cpp_rational ax(a.x), ay(a.y);
-    return (cpp_rational(b.x) - ax) * (cpp_rational(c.y) - ay) -
-           (cpp_rational(b.y) - ay) * (cpp_rational(c.x) - ax);
+Rational cross_of(Vec3 a, Vec3 b, Vec3 c) {
+    const Rational ax(a.x), ay(a.y);
+    return (Rational(b.x) - ax) * (Rational(c.y) - ay) - (Rational(b.y) - ay) * (Rational(c.x) - ax);
 }
 
 /// Every edge of the contours is a side of exactly one triangle, in its direction when `forward`, and all
@@ -67,9 +67,9 @@ void expect_proper(const Face& face) {
     Triangulator triangulator;
     const Triangulation result = face.triangulated(triangulator);
     EXPECT_EQ(result.shape, PolygonShape::simple);
-    cpp_rational area = 0, polygon = 0;
+    Rational area = 0, polygon = 0;
     for (const Triangle& t : result.triangles) {
-        const cpp_rational twice = cross_of(face.vertices[t[0]], face.vertices[t[1]], face.vertices[t[2]]);
+        const Rational twice = cross_of(face.vertices[t[0]], face.vertices[t[1]], face.vertices[t[2]]);
         EXPECT_GT(twice, 0);
         area += twice;
     }
@@ -156,7 +156,7 @@ TEST(Triangulate, CoversPolygonsWithHolesEitherWayRound) {
     const Face same_way = with_contours({outer, hole});
     const Triangulation result = same_way.triangulated(triangulator);
     EXPECT_EQ(result.shape, PolygonShape::simple);
-    cpp_rational area = 0;
+    Rational area = 0;
     for (const Triangle& t : result.triangles)
         area += cross_of(same_way.vertices[t[0]], same_way.vertices[t[1]], same_way.vertices[t[2]]);
     EXPECT_EQ(area, 2 * (100 - 4));
@@ -212,7 +212,7 @@ TEST(Triangulate, CoversAPolygonWhoseHoleIsAlreadyBridged) {
     Triangulator triangulator;
     const Triangulation result = face.triangulated(triangulator);
     EXPECT_EQ(result.shape, PolygonShape::simple);
-    cpp_rational area = 0;
+    Rational area = 0;
     for (const Triangle& t : result.triangles) {
         EXPECT_GT(cross_of(face.vertices[t[0]], face.vertices[t[1]], face.vertices[t[2]]), 0);
         area += cross_of(face.vertices[t[0]], face.vertices[t[1]], face.vertices[t[2]]);
@@ -229,10 +229,9 @@ TEST(Triangulate, CoversAnOutlineThatIsPinchedToAPoint) {
         const Triangulation result = face.triangulated(triangulator);
         EXPECT_EQ(result.shape, one_vertex ? PolygonShape::simple : PolygonShape::degenerate);
         EXPECT_EQ(result.triangles.size(), one_vertex ? 2u : 4u);
-        cpp_rational area = 0;
+        Rational area = 0;
         for (const Triangle& t : result.triangles) {
-            const cpp_rational twice =
-                cross_of(face.vertices[t[0]], face.vertices[t[1]], face.vertices[t[2]]);
+            const Rational twice = cross_of(face.vertices[t[0]], face.vertices[t[1]], face.vertices[t[2]]);
             EXPECT_GE(twice, 0);
             area += twice;
         }
@@ -446,7 +445,7 @@ TEST(Orient2d, AgreesWithRationals) {
         const double x = real(random), y = real(random), dx = real(random), dy = real(random);
         const auto nudged = [&](double v) { return v + small(random) * std::ldexp(std::fabs(v), -52); };
         const Point2 a{x, y}, b{nudged(x + dx), nudged(y + dy)}, c{nudged(x + 2 * dx), nudged(y + 2 * dy)};
-        const cpp_rational exact = cross_of({a.x, a.y, 0}, {b.x, b.y, 0}, {c.x, c.y, 0});
+        const Rational exact = cross_of({a.x, a.y, 0}, {b.x, b.y, 0}, {c.x, c.y, 0});
         ASSERT_EQ(orient2d(a, b, c), exact.sign());
         ASSERT_EQ(orient2d_exact(a, b, c), exact.sign());
     }
