@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include <octavo/query/triangle_distance.hpp>
 
-// The oracle of distances: all triangles of a mesh, each measured in whole numbers of 1024 bits by another road than the
+#include "unlimited.hpp"
+
+// The oracle of distances: all triangles of a mesh, each measured in whole numbers by another road than the
 // code under test, as the least of three segments and of the plane where the foot lies in the triangle.
 //
 // So that a hundred thousand points end in minutes, triangles are passed over whose bounding sphere is farther than
@@ -21,13 +21,11 @@ namespace octavo::tests {
 
 class ClosestOracle {
   public:
-    using Whole = boost::multiprecision::int1024_t;
-    using WholePoint = std::array<Whole, 3>;
+    using WholePoint = std::array<Integer, 3>;
 
-    /// A squared distance, times 4^shift of the point. With coordinates below 2^63 and edges below 2^62 numerators are
-    /// below 2^384 and denominators below 2^256, so that products of the two have room.
+    /// A squared distance, times 4^shift of the point.
     struct Square {
-        Whole numerator, denominator = 1;
+        Integer numerator, denominator = 1;
         bool operator<(const Square& other) const {
             return numerator * other.denominator < other.numerator * denominator;
         }
@@ -89,19 +87,19 @@ class ClosestOracle {
     static WholePoint minus(const WholePoint& a, const WholePoint& b) {
         return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     }
-    static Whole dot(const WholePoint& a, const WholePoint& b) {
+    static Integer dot(const WholePoint& a, const WholePoint& b) {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     }
     static WholePoint cross(const WholePoint& a, const WholePoint& b) {
         return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     }
     static double root_of(const Square& square) {
-        return std::sqrt(square.numerator.convert_to<double>() / square.denominator.convert_to<double>());
+        return std::sqrt(static_cast<double>(square.numerator) / static_cast<double>(square.denominator));
     }
 
     static Square to_segment(const WholePoint& q, const WholePoint& a, const WholePoint& b) {
         const WholePoint edge = minus(b, a), w = minus(q, a), beyond = minus(q, b);
-        const Whole along = dot(edge, w), edge_square = dot(edge, edge);
+        const Integer along = dot(edge, w), edge_square = dot(edge, edge);
         if (along <= 0) return {dot(w, w), 1};
         if (along >= edge_square) return {dot(beyond, beyond), 1};
         return {dot(w, w) * edge_square - along * along, edge_square};
@@ -110,16 +108,16 @@ class ClosestOracle {
     Square square_to(const query::FixedPoint& q, mesh::FaceIndex face) const {
         const auto corner = [&](std::size_t i) {
             const exact::Point p = mesh_.points[mesh_.triangles[face][i]];
-            return WholePoint{Whole(p.x) << q.shift, Whole(p.y) << q.shift, Whole(p.z) << q.shift};
+            return WholePoint{Integer(p.x) << q.shift, Integer(p.y) << q.shift, Integer(p.z) << q.shift};
         };
         const WholePoint a = corner(0), b = corner(1), c = corner(2), p{q.x[0], q.x[1], q.x[2]};
         Square least = std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
         const WholePoint n = cross(minus(b, a), minus(c, a));
-        const Whole n_square = dot(n, n);
+        const Integer n_square = dot(n, n);
         if (n_square == 0) return least;
         if (dot(n, cross(minus(b, a), minus(p, a))) >= 0 && dot(n, cross(minus(c, b), minus(p, b))) >= 0 &&
             dot(n, cross(minus(a, c), minus(p, c))) >= 0) {
-            const Whole height = dot(n, minus(p, a));
+            const Integer height = dot(n, minus(p, a));
             least = std::min(least, Square{height * height, n_square});
         }
         return least;
