@@ -200,11 +200,15 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     phases.begin("assemble", 0.85);
     Surface surface = select(complex, *patches, *classification, context);
     if (context.cancelled()) return Context::cancelled_error();
+    report.dropped_facets =
+        soup->facets.size() - report.cut_facets + report.pieces - surface.triangles.size();
     if (options.simplify == Simplify::coplanar)
         surface = merge_coplanar(std::move(surface), *soup, contacts.faces, points, context);
     RoundedPoints rounded(*soup, points, numbers, context);
     if (context.cancelled()) return Context::cancelled_error();
-    RoundingFaults faults = mend_rounding(surface, *soup, contacts.near, rounded, context);
+    RoundingFaults faults;
+    if (options.faults == Faults::mended)
+        faults = mend_rounding(surface, *soup, contacts.near, rounded, context);
     if (context.cancelled()) return Context::cancelled_error();
     Assembled assembled =
         assemble(surface, *soup, points, rounded, special_points(surface, *patches), context);

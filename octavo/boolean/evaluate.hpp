@@ -50,13 +50,20 @@ struct Tolerance {
     Of unit = Of::length;
 };
 
+/// What rounding does to facets (rounding_faults.hpp).
+enum class Faults : std::uint8_t {
+    mended,   ///< where that is possible; the report names those left
+    ignored,  ///< for callers that round again; the report tells of none
+};
+
 struct Options {
     Simplify simplify = Simplify::coplanar;
     Tolerance tolerance{};
     OpenOperands open = OpenOperands::reject;
     Dangling dangling = Dangling::dropped;  ///< faces that closed operands share outside of the result
     Numbers numbers = Numbers::doubles;     ///< that the result will be written as
-    std::vector<std::string> names{};       ///< of operands, for warnings
+    Faults faults = Faults::mended;
+    std::vector<std::string> names{};  ///< of operands, for warnings
 };
 
 struct Report {
@@ -70,7 +77,8 @@ struct Report {
     FlushReport flush;                  ///< what the tolerance joined
     std::size_t pairs_tested = 0;       ///< facet against facet
     std::size_t cut_facets = 0;
-    std::size_t pieces = 0;  ///< of the cut facets
+    std::size_t pieces = 0;          ///< of the cut facets
+    std::size_t dropped_facets = 0;  ///< facets that nothing cut, and pieces, that do not bound the result
     std::size_t constructed_points = 0;
     std::size_t patches = 0;
     std::size_t components = 0;       ///< each located by one exact ray

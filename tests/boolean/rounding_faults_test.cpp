@@ -226,5 +226,41 @@ TEST(MendRounding, TellsOfAllFaultsWhereFloatsAreCoarse) {
     expect_all_faults_told(Numbers::floats, 0x1p23, 0.75, 75);  // vertices of operands move too
 }
 
+TEST(MendRounding, IsLeftOutForThoseWhoRoundAgain) {
+    const Vec3 origin{0x1p52, 0x1p52, 0x1p52};
+    std::size_t mended = 0;
+    for (unsigned run = 0; run < 40; ++run) {
+        std::mt19937 random(run);
+        std::vector<mesh::Mesh> bodies{tests::random_convex(random, 4).mesh,
+                                       tests::random_convex(random, 5).mesh};
+        for (mesh::Mesh& body : bodies)
+            for (Vec3& vertex : body.vertices) vertex = 3 * vertex + origin;
+        append(bodies[0], far_block(origin));
+        const Result<Evaluated> looked_at = unite(bodies),
+                                not_looked_at = unite(bodies, {.faults = Faults::ignored});
+        ASSERT_TRUE(looked_at && not_looked_at);
+        EXPECT_EQ(not_looked_at->mesh.triangles, looked_at->mesh.triangles);
+        EXPECT_EQ(not_looked_at->report.mended_points + not_looked_at->report.inverted_facets +
+                      not_looked_at->report.crossing_facets,
+                  0U);
+        EXPECT_EQ(not_looked_at->mesh.vertices == looked_at->mesh.vertices,
+                  looked_at->report.mended_points == 0);
+        mended += looked_at->report.mended_points;
+    }
+    EXPECT_GT(mended, 0U);
+}
+
+TEST(Report, CountsFacetsThatDoNotBoundTheResult) {
+    const auto dropped = [](const std::vector<mesh::Mesh>& bodies) {
+        const Result<Evaluated> result = unite(bodies);
+        EXPECT_TRUE(result);
+        return result->report.dropped_facets;
+    };
+    const mesh::Mesh large = tests::box({0, 0, 0}, {4, 4, 4}).mesh;
+    EXPECT_EQ(dropped({large, tests::box({5, 5, 5}, {6, 6, 6}).mesh}), 0U);
+    EXPECT_EQ(dropped({large, tests::box({1, 1, 1}, {2, 2, 2}).mesh}), 12U);
+    EXPECT_GT(dropped({large, tests::box({3, 3, 3}, {6, 6, 6}).mesh}), 0U);
+}
+
 }  // namespace
 }  // namespace octavo::boolean

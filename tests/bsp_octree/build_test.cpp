@@ -110,10 +110,62 @@ TEST(Build, ResolvesSurfacesThatMeetThemselves) {
     EXPECT_NEAR(volume(tests::joined({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1})})), 1, 1e-6);
 }
 
+/// A box of a grid whose sides are cut at a height between.
+mesh::Mesh ringed_box(Vec3 low, Vec3 high, double ring) {
+    mesh::Mesh mesh;
+    for (const double z : {low.z, ring, high.z})
+        for (const auto& [x, y] :
+             {std::pair{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}})
+            mesh.vertices.push_back({x, y, z});
+    mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {8, 9, 10}, {8, 10, 11}};
+    for (std::uint32_t level = 0; level < 8; level += 4)
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            const std::uint32_t a = level + i, b = level + (i + 1) % 4;
+            mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + 4}, {a, b + 4, a + 4}});
+        }
+    return mesh;
+}
+
+TEST(Build, ResolvesBodiesInsideOutThatHangOnOthers) {
+    // Of one shell, whose volume is positive, one part is inside out.
+    const mesh::Mesh hanging = tests::joined(
+        {tests::box({0, 0, 0}, {2, 2, 1}).mesh, mesh::flipped(tests::box({2, 2, 0}, {3, 3, 1}).mesh)});
+    const Result<Built> built = build(hanging);
+    ASSERT_TRUE(built);
+    EXPECT_TRUE(built->report.resolved);
+    EXPECT_NEAR(measure(built->octree).volume, 4, 1e-6);
+    EXPECT_EQ(built->octree.classify({2.5, 2.5, 0.5}), bsp::Position::out);
+}
+
+TEST(Build, ResolvesBodiesThatCrossAlongEdgesInFacets) {
+    // No interior of a facet meets another facet, and the prism's first facet is outside.
+    const mesh::Mesh slab = tests::box({0, 0, 0}, {4, 4, 2}).mesh;
+    for (const auto& [low, high, ring, volume] : {std::tuple{-1, 1, 0, 33}, {1, 3, 2, 33}}) {
+        const mesh::Mesh prism = ringed_box({1, 1, double(low)}, {2, 2, double(high)}, ring);
+        const Result<Built> built = build(tests::joined({slab, prism}));
+        ASSERT_TRUE(built);
+        EXPECT_TRUE(built->report.resolved);
+        EXPECT_NEAR(measure(built->octree).volume, volume, 1e-6);
+        EXPECT_EQ(built->octree.classify({1.5, 1.5, ring + 0.0}), bsp::Position::in);
+    }
+}
+
+TEST(Build, LeavesBodiesThatTouchAlongEdgesInFacetsAsTheyAre) {
+    // A prism on its edge on a slab: nothing is cut, so nothing is rounded.
+    mesh::Mesh prism;
+    prism.vertices = {{1, 1, 2}, {0.5, 1, 3}, {1.5, 1, 3}, {1, 3, 2}, {0.5, 3, 3}, {1.5, 3, 3}};
+    prism.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                       {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+    if (tests::volume_of(prism) < 0) prism = mesh::flipped(prism);
+    const Result<Built> built = build(tests::joined({tests::box({0, 0, 0}, {4, 4, 2}).mesh, prism}));
+    ASSERT_TRUE(built);
+    EXPECT_FALSE(built->report.resolved);
+    EXPECT_NEAR(measure(built->octree).volume, 33, 1e-6);
+}
+
 TEST(Build, KnowsCavitiesAndPartsThatTouch) {
-    mesh::Mesh hollow = tests::box({1, 1, 1}, {2, 2, 2}).mesh;
-    for (mesh::Triangle& t : hollow.triangles) std::swap(t[1], t[2]);
-    const mesh::Mesh shell = tests::joined({tests::box({0, 0, 0}, {3, 3, 3}).mesh, hollow});
+    const mesh::Mesh shell = tests::joined(
+        {tests::box({0, 0, 0}, {3, 3, 3}).mesh, mesh::flipped(tests::box({1, 1, 1}, {2, 2, 2}).mesh)});
     for (const std::uint32_t planes : {1U, 4U, 16U}) {
         tests::expect_solid(tests::octree_of(shell, fine(planes)), 26, "cavity");
         tests::expect_solid(tests::octree_of(tests::joined({tests::box({0, 0, 0}, {1, 1, 1}).mesh,

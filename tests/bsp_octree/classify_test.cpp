@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -109,22 +112,69 @@ Integer scaled(double number) {
     return Integer(mantissa) << (200 + exponent - 53);
 }
 
+/// A star-shaped body about the origin, asked in exact integers: a point is inside when it is behind the facet whose cone
+/// from the origin holds it.
+class Star {
+  public:
+    explicit Star(const mesh::Mesh& mesh) : mesh_(mesh), about_(mesh.vertices.size()) {
+        for (const Vec3 vertex : mesh.vertices) corners_.push_back(exactly(vertex));
+        for (std::size_t facet = 0; facet < mesh.triangles.size(); ++facet)
+            for (const mesh::VertexIndex corner : mesh.triangles[facet]) about_[corner].push_back(facet);
+    }
+
+    /// Facets about vertex `near` are asked first, which is fast; where one cone holds the point, all that do agree.
+    Position classify(Vec3 point, mesh::VertexIndex near) const {
+        const Exact p = exactly(point);
+        for (const std::size_t facet : about_[near])
+            if (const auto found = behind(facet, p)) return *found;
+        for (std::size_t facet = 0; facet < mesh_.triangles.size(); ++facet)
+            if (const auto found = behind(facet, p)) return *found;
+        ADD_FAILURE() << "no cone holds the point";
+        return Position::out;
+    }
+
+  private:
+    using Exact = std::array<Integer, 3>;
+
+    static Exact exactly(Vec3 point) { return {scaled(point.x), scaled(point.y), scaled(point.z)}; }
+    static Integer volume(const Exact& u, const Exact& v, const Exact& w) {
+        return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
+               u[2] * (v[0] * w[1] - v[1] * w[0]);
+    }
+    /// Nothing when the facet's cone does not hold the point.
+    std::optional<Position> behind(std::size_t facet, const Exact& p) const {
+        const auto& [i, j, k] = mesh_.triangles[facet];
+        const Exact &a = corners_[i], &b = corners_[j], &c = corners_[k];
+        const Integer first = volume(p, b, c);
+        if (first < 0) return {};
+        const Integer second = volume(a, p, c);
+        if (second < 0) return {};
+        const Integer third = volume(a, b, p);
+        if (third < 0) return {};
+        const Integer rest = volume(a, b, c) - first - second - third;
+        return rest > 0 ? Position::in : rest == 0 ? Position::on : Position::out;
+    }
+
+    const mesh::Mesh& mesh_;
+    std::vector<Exact> corners_;
+    std::vector<std::vector<std::size_t>> about_;
+};
+
 TEST(Classify, AgreesWithRationalsOnPointsOnAndNearFacets) {
-    // A convex polyhedron of many facets: the point is in iff it is behind all planes, in exact integers.
-    const mesh::Mesh ball = mesh::icosphere(1, 5);
+    mesh::Mesh ball = mesh::icosphere(1, 5);
     const Result<Built> built = build(ball);
     ASSERT_TRUE(built);
     const exact::Lattice& lattice = built->octree.lattice();
-    mesh::Mesh snapped = ball;
-    for (Vec3& vertex : snapped.vertices) vertex = lattice.to_world(lattice.snap(vertex));
+    for (Vec3& vertex : ball.vertices) vertex = lattice.to_world(lattice.snap(vertex));
+    const Star star(ball);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> unit(0, 1);
     std::uniform_int_distribution<std::size_t> any(0, ball.triangles.size() - 1);
     const int points = 2000 * tests::effort();
     int on = 0;
     for (int i = 0; i < points && !HasFailure(); ++i) {
-        const mesh::Triangle& t = snapped.triangles[any(random)];
-        const Vec3 a = snapped.vertices[t[0]], b = snapped.vertices[t[1]], c = snapped.vertices[t[2]];
+        const mesh::Triangle& t = ball.triangles[any(random)];
+        const Vec3 a = ball.vertices[t[0]], b = ball.vertices[t[1]], c = ball.vertices[t[2]];
         Vec3 p;
         switch (i % 4) {
             case 0:
@@ -141,27 +191,7 @@ TEST(Classify, AgreesWithRationalsOnPointsOnAndNearFacets) {
             default:
                 p = (unit(random) * 1.2) * a + Vec3{unit(random) * 1e-9, 0, 0};
         }
-        // The hull of a sphere's triangles is convex only where the facets' planes leave all vertices behind, so take
-        // the solid angle's word: count, exactly, the facets that a ray through the point would need. For a star-shaped
-        // body it is enough to test the facet whose cone from the origin holds the point.
-        Position expected = Position::out;
-        for (const mesh::Triangle& facet : snapped.triangles) {
-            Integer x[4][3];
-            const Vec3 corner[4] = {snapped.vertices[facet[0]], snapped.vertices[facet[1]],
-                                    snapped.vertices[facet[2]], p};
-            for (int k = 0; k < 4; ++k)
-                for (int axis = 0; axis < 3; ++axis) x[k][axis] = scaled(corner[k][axis]);
-            const auto det = [&](const Integer(&u)[3], const Integer(&v)[3], const Integer(&w)[3]) {
-                return Integer(u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
-                               u[2] * (v[0] * w[1] - v[1] * w[0]));
-            };
-            const Integer whole = det(x[0], x[1], x[2]), u = det(x[3], x[1], x[2]), v = det(x[0], x[3], x[2]),
-                          w = det(x[0], x[1], x[3]);
-            if (u < 0 || v < 0 || w < 0) continue;  // outside the facet's cone
-            const Integer rest = whole - u - v - w;
-            expected = rest > 0 ? Position::in : rest == 0 ? Position::on : Position::out;
-            break;
-        }
+        const Position expected = star.classify(p, t[0]);
         on += expected == Position::on;
         ASSERT_EQ(built->octree.classify(p), expected) << "point " << i;
     }
