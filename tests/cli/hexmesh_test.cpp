@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include <places.hpp>
+
 #include "cli/program.hpp"
 
 // The verb hexmesh, end to end: the keys that scripts rely on, every kind of output, and what it refuses.

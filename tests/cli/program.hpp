@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <iosfwd>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <places.hpp>
-#include <sys/wait.h>
 
-// Runs the real program in a folder of its own, as a shell would.
+// Runs the real program in a folder of its own, as a shell would. What takes the JSON library long to compile is in
+// the source file.
+
+namespace nlohmann {
+/// For GoogleTest's messages.
+void PrintTo(const json& value, std::ostream* out);
+}  // namespace nlohmann
 
 namespace octavo::tests {
 
@@ -21,48 +22,28 @@ struct Ran {
     int exit_code = -1;
     std::string out, err;
 
-    nlohmann::json json() const { return nlohmann::json::parse(out, nullptr, false); }
+    /// What it wrote, parsed; discarded if that is not JSON.
+    nlohmann::json json() const;
 };
 
 class ProgramTest : public testing::Test {
   protected:
-    void SetUp() override {
-        const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("octavo-" + std::to_string(getpid()) + "-" + info->test_suite_name() + "-" + info->name());
-        std::filesystem::create_directories(folder_);
-    }
+    void SetUp() override;
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-    std::string write(const std::string& name, const std::string& content) const {
-        std::ofstream(path(name), std::ios::binary) << content;
-        return path(name);
-    }
-    std::string read(const std::string& name) const {
-        std::ostringstream content;
-        content << std::ifstream(path(name), std::ios::binary).rdbuf();
-        return content.str();
-    }
+    std::string write(const std::string& name, const std::string& content) const;
+    std::string read(const std::string& name) const;
 
     /// `arguments` as typed in a shell, in the test's folder, without a terminal.
-    Ran octavo(const std::string& arguments) const {
-        const std::string command =
-            "cd '" + folder_.string() + "' && " + program + " " + arguments + " >.out 2>.err </dev/null";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
-    }
+    Ran octavo(const std::string& arguments) const;
     /// A command for bash in which $octavo is the program.
-    Ran shell(const std::string& command) const {
-        const std::string whole =
-            "cd '" + folder_.string() + "' && octavo=" + program + " bash .command >.out 2>.err";
-        write(".command", command);
-        const int status = std::system(whole.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
-    }
+    Ran shell(const std::string& command) const;
 
   private:
+    /// `command` for the system's shell, in the folder.
+    Ran run(const std::string& command) const;
+
     std::filesystem::path folder_;
 };
 
