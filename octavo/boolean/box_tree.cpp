@@ -100,7 +100,7 @@ void set_empty(BoxNode& node) {
 }  // namespace
 
 BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin,
-                 const Context& context)
+                 const Context& context, std::span<const char> spread)
     : facets_(std::move(facets)) {
     if (facets_.empty()) return;
     UninitialisedVector<Keyed> keyed(facets_.size());
@@ -119,11 +119,12 @@ BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32
         for (std::size_t i = begin; i < end; ++i) facets_[i] = keyed[i].facet;
     });
     keyed = {};
-    fill_blocks(soup, margin, context);
+    fill_blocks(soup, margin, spread, context);
     build_levels(context);
 }
 
-void BoxTree::fill_blocks(const Soup& soup, std::int32_t margin, const Context& context) {
+void BoxTree::fill_blocks(const Soup& soup, std::int32_t margin, std::span<const char> spread,
+                          const Context& context) {
     const std::size_t count = (facets_.size() + width - 1) / width;
     blocks_.resize(count);
     levels_.emplace_back(count);
@@ -136,7 +137,9 @@ void BoxTree::fill_blocks(const Soup& soup, std::int32_t margin, const Context& 
                 const mesh::Triangle& corners = soup.facets[facets_[position]];
                 for (int corner = 0; corner < 3; ++corner) {
                     const exact::Point point = soup.points[corners[corner]];
-                    block.corner[corner][lane] = corners[corner];
+                    const std::uint32_t vertex = corners[corner];
+                    block.corner[corner][lane] =
+                        !spread.empty() && spread[vertex] ? vertex | FacetBlock::spread : vertex;
                     block.point[corner][0][lane] = point.x;
                     block.point[corner][1][lane] = point.y;
                     block.point[corner][2][lane] = point.z;

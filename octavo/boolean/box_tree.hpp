@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <octavo/base/context.hpp>
@@ -34,8 +35,10 @@ class BoxTree {
     static constexpr int width = BoxNode::width;
 
     BoxTree() = default;
-    /// Of the facets listed; boxes are larger by `margin` on every side.
-    BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin, const Context& context);
+    /// Of the facets listed; boxes are larger by `margin` on every side. `spread` tells of vertices what blocks note of
+    /// them; none are when it is empty.
+    BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin, const Context& context,
+            std::span<const char> spread = {});
 
     /// Calls `visit(facet)` for the facets whose boxes meet the closed box from `low` to `high`.
     template <class Visit>
@@ -54,6 +57,8 @@ class BoxTree {
     std::uint32_t top() const { return static_cast<std::uint32_t>(levels_.size() - 1); }
     const BoxNode& node(std::uint32_t level, std::uint32_t number) const { return levels_[level][number]; }
     const FacetBlock& block(std::uint32_t number) const { return blocks_[number]; }
+    /// After this there are none; what is left finds facets by boxes.
+    void forget_blocks() { blocks_ = {}; }
 
   private:
     template <class Visit>
@@ -67,7 +72,8 @@ class BoxTree {
                 for_each_meeting(probe, level - 1, child, visit);
         }
     }
-    void fill_blocks(const Soup& soup, std::int32_t margin, const Context& context);
+    void fill_blocks(const Soup& soup, std::int32_t margin, std::span<const char> spread,
+                     const Context& context);
     void build_levels(const Context& context);
 
     std::vector<std::uint32_t> facets_;

@@ -9,6 +9,7 @@
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/boolean/rounding_faults.hpp>
 #include <octavo/boolean/simplify.hpp>
+#include <octavo/boolean/stars.hpp>
 #include <octavo/boolean/thin_shells.hpp>
 #include <octavo/exact/counters.hpp>
 
@@ -171,13 +172,17 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
 
     phases.begin("index", 0.15);
     const Numbers numbers = usable_numbers(soup->lattice, options.numbers, report);
-    const FacetTree tree(*soup, context, contact_reach(soup->lattice, numbers));
+    const double reach = contact_reach(soup->lattice, numbers);
+    const Stars stars = find_stars(*soup, reach, context);
+    if (context.cancelled()) return Context::cancelled_error();
+    FacetTree tree(*soup, context, reach, stars.is_spread);
 
     phases.begin("meet", 0.25);
     PointTable points(*soup);
     const Contacts contacts = find_contacts(*soup, tree, points, context);
     if (context.cancelled()) return Context::cancelled_error();
     report.pairs_tested = contacts.near.size();
+    tree.forget_pairs();
 
     phases.begin("cut", 0.5);
     const Complex complex = arrange(*soup, contacts, points, context);
@@ -187,7 +192,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     report.constructed_points = points.size() - soup->points.size();
 
     phases.begin("connect", 0.65);
-    const Result<Patches> patches = find_patches(complex, points, context);
+    const Result<Patches> patches = find_patches(complex, stars, points, context);
     if (!patches) return patches.error();
     report.patches = patches->count;
 

@@ -12,6 +12,8 @@ namespace {
 static_assert(exact::budget::normal <= 53 && exact::budget::edge <= 26);
 constexpr double margin = 0x1p-23;
 
+constexpr std::uint32_t no_corner = ~std::uint32_t{0};
+
 struct Vector {
     double x, y, z;
 };
@@ -192,6 +194,18 @@ unsigned across_plane(const FacetBlock& block, const FacetPlanes& planes, int la
 }
 
 }  // namespace
+
+unsigned sharing_spread(const FacetBlock& block, int lane, const FacetBlock& others) {
+    const BlockWords first = load_block(others.corner[0]), second = load_block(others.corner[1]),
+                     third = load_block(others.corner[2]);
+    BlockWords shares = {};
+    for (int k = 0; k < 3; ++k) {
+        const std::uint32_t corner = block.corner[k][lane];
+        const auto own = static_cast<std::int32_t>(corner & FacetBlock::spread ? corner : no_corner);
+        shares |= (first == own) | (second == own) | (third == own);
+    }
+    return bits(shares);
+}
 
 FacetPlanes::FacetPlanes(const FacetBlock& block, double reach) {
     for (int lane = 0; lane < FacetBlock::width; ++lane) {

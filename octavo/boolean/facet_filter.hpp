@@ -23,8 +23,17 @@ namespace octavo::boolean {
 struct alignas(32) FacetBlock {
     static constexpr int width = 8;
     std::int32_t point[3][3][width];  ///< corner, axis, lane
-    std::uint32_t corner[3][width];   ///< vertex of the soup
+    std::uint32_t corner[3][width];   ///< vertex of the soup, with `spread` where that is known of its star
+    static constexpr std::uint32_t spread = std::uint32_t{1} << 31;
+
+    bool has_spread_corner(int lane) const {
+        return ((corner[0][lane] | corner[1][lane] | corner[2][lane]) & spread) != 0;
+    }
 };
+
+/// The facets of `others` that share a vertex whose star is spread (stars.hpp) with facet `lane` of `block`: they have no
+/// more in common than that, or an edge.
+unsigned sharing_spread(const FacetBlock& block, int lane, const FacetBlock& others);
 
 /// The planes of the facets of a block, as doubles: the value of a point is normal · point + offset.
 struct alignas(32) FacetPlanes {

@@ -27,7 +27,8 @@ std::int32_t longest_side(const Soup& soup, std::uint32_t facet) {
 
 }  // namespace
 
-FacetTree::FacetTree(const Soup& soup, const Context& context, double reach) : reach_(reach) {
+FacetTree::FacetTree(const Soup& soup, const Context& context, double reach, std::span<const char> spread)
+    : reach_(reach) {
     const double limit =
         long_ratio * exact::universe_side / std::sqrt(static_cast<double>(soup.facets.size()) + 1);
     constexpr std::size_t grain = 1 << 14;
@@ -49,8 +50,8 @@ FacetTree::FacetTree(const Soup& soup, const Context& context, double reach) : r
     });
     // Of either box. Corners are integers: boxes that do not meet are a unit apart.
     const auto margin = reach < 1 ? 0 : static_cast<std::int32_t>(std::ceil(reach / 2));
-    ordinary_ = BoxTree(soup, std::move(ordinary), margin, context);
-    long_ = BoxTree(soup, std::move(long_ones), margin, context);
+    ordinary_ = BoxTree(soup, std::move(ordinary), margin, context, spread);
+    long_ = BoxTree(soup, std::move(long_ones), margin, context, spread);
 }
 
 std::vector<FacetTree::Task> FacetTree::pair_tasks(std::size_t count) const {

@@ -26,8 +26,10 @@ namespace octavo::boolean {
 class FacetTree {
   public:
     FacetTree() = default;
-    /// With a `reach`, pairs that come nearer to each other than that, in lattice units, are found as well.
-    explicit FacetTree(const Soup& soup, const Context& context = {}, double reach = 0);
+    /// With a `reach`, pairs that come nearer to each other than that, in lattice units, are found as well. `spread` are
+    /// the vertices of which that is known with the same reach (stars.hpp), which saves most of the search.
+    explicit FacetTree(const Soup& soup, const Context& context = {}, double reach = 0,
+                       std::span<const char> spread = {});
 
     /// A part of all pairs: either nodes `first` <= `second` of one level of the ordinary facets, or the long
     /// facets at the positions [first, second).
@@ -55,6 +57,12 @@ class FacetTree {
         }
     }
 
+    /// Gives back the memory that only pairs are found by.
+    void forget_pairs() {
+        ordinary_.forget_blocks();
+        long_.forget_blocks();
+    }
+
     /// Calls `visit(facet)` for each facet whose box meets a ray that starts in the box from `low` to `high` and runs
     /// along `axis`, in the direction of `sign`.
     template <class Visit>
@@ -78,12 +86,14 @@ class FacetTree {
               lane(static_cast<int>(position % width)),
               block(tree.block(position / width)),
               box(tree.node(0, position / width)),
+              has_spread_corner(block.has_spread_corner(lane)),
               planes(block, reach),
               prism(block, lane, reach) {}
         std::uint32_t facet;
         int lane;
         const FacetBlock& block;
         const BoxNode& box;
+        bool has_spread_corner;
         FacetPlanes planes;
         FacetPrism prism;
     };
@@ -93,7 +103,12 @@ class FacetTree {
                const Visit& visit) const {
         const BoxNode& node = ordinary_.node(level, first);
         const BoxNode& other = ordinary_.node(level, second);
-        for (int lane = 0; lane < width; ++lane) {
+        unsigned lanes = (1u << width) - 1;
+        if (first != second)  // those that meet the box about the other node: of neighbours a few
+            lanes =
+                meeting(node, ordinary_.node(level + 1, second / width), static_cast<int>(second % width));
+        for (; lanes; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
             unsigned hits = meeting(other, node, lane);
             if (first == second) hits &= level == 0 ? ~1u << lane : ~0u << lane;
             if (!hits) continue;
@@ -103,6 +118,10 @@ class FacetTree {
                     pairs(level - 1, a, second * width + static_cast<std::uint32_t>(std::countr_zero(hits)),
                           current, visit);
                 continue;
+            }
+            if (ordinary_.block(first).has_spread_corner(lane)) {
+                hits &= ~sharing_spread(ordinary_.block(first), lane, ordinary_.block(second));
+                if (!hits) continue;
             }
             if (current.block != first) current = {first, FacetPlanes(ordinary_.block(first), reach_)};
             hits =
@@ -126,7 +145,8 @@ class FacetTree {
         if (level == 0 && begin > number * width) hits &= ~0u << (begin - number * width);
         if (level > 0) {
             hits = facet.prism.meeting(node, hits);
-        } else {
+        } else if (hits) {
+            if (facet.has_spread_corner) hits &= ~sharing_spread(facet.block, facet.lane, tree.block(number));
             if (hits)
                 hits = may_meet(facet.block, facet.planes, facet.lane, tree.block(number), hits, reach_);
         }

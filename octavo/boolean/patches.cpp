@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <bit>
+#include <atomic>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include <octavo/base/parallel.hpp>
@@ -10,125 +9,66 @@
 #include <octavo/boolean/about_edge.hpp>
 #include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/concurrent_sets.hpp>
-#include <octavo/boolean/lanes.hpp>
 #include <octavo/boolean/patches.hpp>
+#include <octavo/boolean/ring.hpp>
 #include <octavo/exact/plane.hpp>
 
 namespace octavo::boolean {
 namespace {
 
-/// For each point, the corners at it, as 4 · triangle + k.
-struct CornerTable {
-    std::vector<std::uint32_t> begin;
-    UninitialisedVector<std::uint32_t> corners;
-};
-
-/// Threads share the work by ranges of points. Each looks at the blocks of triangles that have corners in its range,
-/// which are few where meshes are numbered in some order.
-CornerTable corners_by_point(const Complex& complex, std::size_t points, const Context& context) {
-    constexpr std::uint32_t block = 1024;
-    const std::size_t ranges = context.threads == 1 ? 1 : 8, range = points / ranges + 1;
-    std::vector<std::uint8_t> ranges_of(complex.size() / block + 1, ranges == 1);
-    const auto for_each_corner_of = [&](std::size_t number, const auto& visit) {
-        const auto begin = static_cast<std::uint32_t>(number * block);
-        for (std::uint32_t triangle = begin; triangle < std::min(begin + block, complex.size()); ++triangle) {
-            if (!complex.exists(triangle)) continue;
-            const mesh::Triangle& corners = complex.corners(triangle);
-            for (std::uint32_t k = 0; k < 3; ++k) visit(corners[k], 4 * triangle + k);
-        }
-    };
-    if (ranges > 1)
-        parallel_chunks(context, ranges_of.size(), 64, [&](std::size_t first, std::size_t last) {
-            for (std::size_t number = first; number < last; ++number)
-                for_each_corner_of(number, [&](PointId point, std::uint32_t) {
-                    ranges_of[number] = static_cast<std::uint8_t>(ranges_of[number] | 1u << point / range);
-                });
-        });
-    const auto for_each_corner = [&](std::size_t first, std::size_t last, const auto& visit) {
-        for (std::size_t number = 0; number < ranges_of.size(); ++number)
-            if (ranges_of[number] >> first / range & 1)
-                for_each_corner_of(number, [&](PointId point, std::uint32_t corner) {
-                    if (point >= first && point < last) visit(point, corner);
-                });
-    };
-    // The corners of a point are counted two places on, and then its end is counted up from where it begins.
-    CornerTable table;
-    table.begin.assign(points + 2, 0);
-    parallel_chunks(context, points, range, [&](std::size_t first, std::size_t last) {
-        for_each_corner(first, last, [&](PointId point, std::uint32_t) { ++table.begin[point + 2]; });
-    });
-    for (std::size_t point = 2; point < table.begin.size(); ++point)
-        table.begin[point] += table.begin[point - 1];
-    table.corners.resize(table.begin.back());
-    parallel_chunks(context, points, range, [&](std::size_t first, std::size_t last) {
-        for_each_corner(first, last, [&](PointId point, std::uint32_t corner) {
-            table.corners[table.begin[point + 1]++] = corner;
-        });
-    });
-    return table;
-}
-
-/// Recognises points whose triangles form one closed fan of equal ones.
-class FanTest {
+/// The triangles about each point.
+class CornersAt {
   public:
-    explicit FanTest(const Complex& complex) : complex_(complex) {}
+    CornersAt(const Complex& complex, const Stars& stars, std::size_t points, const Context& context)
+        : complex_(complex),
+          stars_(stars),
+          pieces_(corners_by_point(complex.pieces, complex.facets(), points, context)),
+          is_cut_(complex.soup->points.size(), 0) {
+        constexpr std::size_t grain = 1 << 15;
+        parallel_chunks(context, complex.facets(), grain, [&](std::size_t first, std::size_t last) {
+            for (std::size_t facet = first; facet < last; ++facet)
+                if (complex.is_cut[facet])
+                    for (const std::uint32_t corner : complex.soup->facets[facet])
+                        std::atomic_ref(is_cut_[corner]).store(1, std::memory_order_relaxed);
+        });
+    }
 
-    bool is_plain(std::span<const std::uint32_t> corners) {
-        if (corners.size() < 3) return false;
-        const TransitionId transition = complex_.transition(corners[0] / 4);
-        for (const std::uint32_t corner : corners)
-            if (complex_.transition(corner / 4) != transition) return false;
-        return corners.size() <= small ? is_small_cycle(corners) : is_large_cycle(corners);
+    /// Whether the star is that of a vertex of the soup, as it was.
+    bool is_whole(std::size_t point) const {
+        return point < is_cut_.size() && !is_cut_[point] && pieces_.at(point).empty();
+    }
+    /// Ascending; `gathered` is where they are put unless they are together somewhere.
+    std::span<const std::uint32_t> operator()(std::size_t point, std::vector<std::uint32_t>& gathered) const {
+        if (is_whole(point)) return stars_.corners.at(point);
+        if (point >= is_cut_.size()) return pieces_.at(point);
+        gathered.clear();
+        for (const std::uint32_t corner : stars_.corners.at(point))
+            if (!complex_.is_cut[corner / 4]) gathered.push_back(corner);
+        const std::span<const std::uint32_t> pieces = pieces_.at(point);
+        gathered.insert(gathered.end(), pieces.begin(), pieces.end());
+        return gathered;
     }
 
   private:
-    static constexpr std::size_t small = 32;
-
-    /// The side of the triangle that lies opposite to the corner.
-    std::pair<PointId, PointId> opposite(std::uint32_t corner) const {
-        const mesh::Triangle& t = complex_.corners(corner / 4);
-        const std::uint32_t k = corner % 4;
-        return {t[(k + 1) % 3], t[(k + 2) % 3]};
-    }
-
-    /// Follows the sides; each next one is found among all by comparing eight at once.
-    bool is_small_cycle(std::span<const std::uint32_t> corners) const {
-        std::uint32_t from[small], to[small];
-        const std::size_t count = corners.size(), padded = (count + 7) / 8 * 8;
-        for (std::size_t i = 0; i < count; ++i) std::tie(from[i], to[i]) = opposite(corners[i]);
-        for (std::size_t i = count; i < padded; ++i) from[i] = no_index;
-        std::size_t at = 0;
-        for (std::size_t step = 1; step <= count; ++step) {
-            std::uint32_t starts = 0;
-            for (std::size_t block = 0; block < padded; block += 8)
-                starts |= bits(load_block(from + block) == static_cast<std::int32_t>(to[at])) << block;
-            if (!std::has_single_bit(starts)) return false;
-            at = static_cast<std::size_t>(std::countr_zero(starts));
-            if (at == 0) return step == count;
-        }
-        return false;
-    }
-
-    /// Sorted by start, a fan is a permutation that each search follows in logarithmic time.
-    bool is_large_cycle(std::span<const std::uint32_t> corners) {
-        fan_.clear();
-        for (const std::uint32_t corner : corners) fan_.push_back(opposite(corner));
-        std::sort(fan_.begin(), fan_.end());
-        std::size_t at = 0;
-        for (std::size_t step = 1; step <= fan_.size(); ++step) {
-            const auto next =
-                std::lower_bound(fan_.begin(), fan_.end(), std::pair<PointId, PointId>{fan_[at].second, 0});
-            if (next == fan_.end() || next->first != fan_[at].second) return false;
-            if (next + 1 != fan_.end() && (next + 1)->first == next->first) return false;
-            at = static_cast<std::size_t>(next - fan_.begin());
-            if (at == 0) return step == fan_.size();
-        }
-        return false;
-    }
-
     const Complex& complex_;
-    std::vector<std::pair<PointId, PointId>> fan_;
+    const Stars& stars_;
+    CornerTable pieces_;
+    std::vector<char> is_cut_;  ///< per vertex of the soup: a facet at it
 };
+
+/// Whether the triangles at a point form one closed fan of equal ones.
+bool is_plain_fan(const Complex& complex, std::span<const std::uint32_t> corners, Ring& ring) {
+    if (corners.size() < 3) return false;
+    const TransitionId transition = complex.transition(corners[0] / 4);
+    ring.begin(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::uint32_t triangle = corners[i] / 4, k = corners[i] % 4;
+        if (complex.transition(triangle) != transition) return false;
+        const mesh::Triangle& t = complex.corners(triangle);
+        ring.set(i, t[(k + 1) % 3], t[(k + 2) % 3]);
+    }
+    return ring.close();
+}
 
 /// A triangle at a vertex, as its opposite edge; or one of its sides at the vertex.
 struct Spoke {
@@ -216,14 +156,14 @@ class EdgeSearch {
 
 class PatchSearch {
   public:
-    PatchSearch(const Complex& complex, const PointTable& points, const Context& context)
-        : complex_(complex), points_(points), context_(context), sets_(complex.size()) {}
+    PatchSearch(const Complex& complex, const Stars& stars, const PointTable& points, const Context& context)
+        : complex_(complex), stars_(stars), points_(points), context_(context), sets_(complex.size()) {}
 
     Result<Patches> run() {
-        const CornerTable table = corners_by_point(complex_, points_.size(), context_);
-        join_fans(table);
+        const CornersAt corners_at(complex_, stars_, points_.size(), context_);
+        join_fans(corners_at);
         if (context_.cancelled()) return Context::cancelled_error();
-        find_junctions(table);
+        find_junctions(corners_at);
         if (context_.cancelled()) return Context::cancelled_error();
         if (!open_.empty()) return open_error();
         number_patches();
@@ -239,17 +179,16 @@ class PatchSearch {
   private:
     static constexpr std::size_t grain = 1 << 13;
 
-    static std::span<const std::uint32_t> corners_at(const CornerTable& table, std::size_t point) {
-        return {table.corners.data() + table.begin[point], table.begin[point + 1] - table.begin[point]};
-    }
-
-    void join_fans(const CornerTable& table) {
+    void join_fans(const CornersAt& corners_at) {
         patches_.is_plain.assign(points_.size(), 0);
         parallel_chunks(context_, points_.size(), grain, [&](std::size_t first, std::size_t last) {
-            FanTest test(complex_);
+            Ring ring;
+            std::vector<std::uint32_t> gathered;
             for (std::size_t point = first; point < last; ++point) {
-                const std::span<const std::uint32_t> corners = corners_at(table, point);
-                if (!test.is_plain(corners)) continue;
+                const bool is_whole = corners_at.is_whole(point);
+                if (is_whole && !stars_.is_fan[point]) continue;
+                const std::span<const std::uint32_t> corners = corners_at(point, gathered);
+                if (!is_whole && !is_plain_fan(complex_, corners, ring)) continue;
                 patches_.is_plain[point] = 1;
                 for (const std::uint32_t corner : corners.subspan(1)) sets_.unite(corners[0] / 4, corner / 4);
             }
@@ -257,13 +196,14 @@ class PatchSearch {
     }
 
     /// Ranges of points find for themselves, and what they have found is put together in their order.
-    void find_junctions(const CornerTable& table) {
+    void find_junctions(const CornersAt& corners_at) {
         std::vector<FoundEdges> found((points_.size() + grain - 1) / grain);
         parallel_chunks(context_, points_.size(), grain, [&](std::size_t first, std::size_t last) {
             EdgeSearch search(complex_, patches_.is_plain, sets_, found[first / grain]);
+            std::vector<std::uint32_t> gathered;
             for (std::size_t point = first; point < last; ++point)
                 if (!patches_.is_plain[point])
-                    search.visit_edges(static_cast<PointId>(point), corners_at(table, point));
+                    search.visit_edges(static_cast<PointId>(point), corners_at(point, gathered));
         });
         for (FoundEdges& part : found) {
             const auto begin = static_cast<std::uint32_t>(patches_.around.size());
@@ -356,6 +296,7 @@ class PatchSearch {
     }
 
     const Complex& complex_;
+    const Stars& stars_;
     const PointTable& points_;
     const Context& context_;
     ConcurrentSets sets_;
@@ -365,8 +306,9 @@ class PatchSearch {
 
 }  // namespace
 
-Result<Patches> find_patches(const Complex& complex, const PointTable& points, const Context& context) {
-    return PatchSearch(complex, points, context).run();
+Result<Patches> find_patches(const Complex& complex, const Stars& stars, const PointTable& points,
+                             const Context& context) {
+    return PatchSearch(complex, stars, points, context).run();
 }
 
 }  // namespace octavo::boolean

@@ -7,6 +7,7 @@
 #include <octavo/base/result.hpp>
 #include <octavo/boolean/arrangement.hpp>
 #include <octavo/boolean/point_table.hpp>
+#include <octavo/boolean/stars.hpp>
 
 // Patches: maximal sets of triangles of the complex with the same solid on either side.
 //
@@ -20,7 +21,8 @@
 // The boundary of every operand must vanish: at each edge its winding changes sum to nothing. That test is exact
 // and geometric (cut edges included, so T-junctions that close are fine), and it is what refuses open operands.
 //
-// Cost: linear; one scattered write a triangle corner.
+// Stars that nothing cuts are what they were in the soup; only the others are looked at anew.
+// Cost: linear.
 
 namespace octavo::boolean {
 
@@ -45,6 +47,8 @@ struct Patches {
 };
 
 /// Errors: not_a_solid when an operand is open or inconsistently oriented, with facets at such edges.
-Result<Patches> find_patches(const Complex& complex, const PointTable& points, const Context& context);
+/// `stars` are those of the soup.
+Result<Patches> find_patches(const Complex& complex, const Stars& stars, const PointTable& points,
+                             const Context& context);
 
 }  // namespace octavo::boolean

@@ -8,6 +8,7 @@
 
 #include <octavo/boolean/facet_filter.hpp>
 #include <octavo/boolean/facet_tree.hpp>
+#include <octavo/boolean/stars.hpp>
 
 #include "effort.hpp"
 #include "solids.hpp"
@@ -221,6 +222,123 @@ TEST(FacetTree, FindsAllPairsThatMeetAmongSliversAndSmallFacets) {
         EXPECT_GT(met, 10U);
         EXPECT_LT(found.size(), 2 * met + 100) << "the filters let too much through";
     }
+}
+
+/// A fan about point 0. Its ring goes about an axis once, seen along it, or twice, or anyhow; up and down as it likes.
+Soup random_star(std::mt19937& random) {
+    const auto number = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    constexpr std::int32_t centre = exact::universe_side / 2;
+    Soup soup;
+    soup.points.push_back({centre, centre, centre});
+    const auto kind = random() % 8;
+    const std::size_t count = 3 + random() % 10, axis = random() % 3;
+    const double size = std::exp2(number(5, 24)), height = number(0, 1.5);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double turns = kind == 0 ? 2.0 : 1.0, noise = kind == 1 ? number(0, 1) : number(0, 0.8);
+        const double angle =
+            6.283185307179586 * turns * (static_cast<double>(i) + noise) / static_cast<double>(count);
+        const double radius = size * (kind == 2 ? std::exp2(number(-4, 0)) : number(0.5, 1));
+        const double along[3] = {radius * std::cos(angle), radius * std::sin(angle),
+                                 size * number(-height, height)};
+        const auto at = [&](std::size_t k) {
+            return centre + static_cast<std::int32_t>(along[(k + axis) % 3] / 4);
+        };
+        soup.points.push_back({at(0), at(1), at(2)});
+    }
+    if (kind == 3) std::shuffle(soup.points.begin() + 1, soup.points.end(), random);
+    const bool turned = random() % 2 == 0;
+    for (std::uint32_t i = 1; i <= count; ++i) {
+        const std::uint32_t next = i == count ? 1 : i + 1;
+        soup.facets.push_back({0, turned ? next : i, turned ? i : next});
+    }
+    soup.transition.assign(soup.facets.size(), 0);
+    return soup;
+}
+
+Facet facet_of(const Soup& soup, std::uint32_t facet) {
+    Facet f;
+    for (std::size_t k = 0; k < 3; ++k) f.id[k] = soup.facets[facet][k], f.at[k] = soup.points[f.id[k]];
+    return f;
+}
+
+/// Neighbours by nothing but the star's vertex stay apart as long as no other corner moves farther than the reach.
+TEST(Stars, AreNotSaidToBeSpreadWhereFacetsMeetWithinTheReach) {
+    Context context;
+    context.threads = 1;
+    std::size_t spread = 0, folded = 0;
+    for (int run = 0; run < 4000 * tests::effort() && !HasFailure(); ++run) {
+        std::mt19937 random(static_cast<unsigned>(run));
+        const Soup soup = random_star(random);
+        const int reach = run % 3 == 0 ? 0 : static_cast<int>(random() % 200);
+        const auto facets = static_cast<std::uint32_t>(soup.facets.size());
+        if (!find_stars(soup, reach, context).is_spread[0]) {
+            ++folded;
+            continue;
+        }
+        ++spread;
+        const auto moved = [&](Facet f) {
+            for (Point& point : f.at)
+                if (point != soup.points[0]) {
+                    const auto step = [&] { return (static_cast<int>(random() % 3) - 1) * reach; };
+                    point = {point.x + step(), point.y + step(), point.z + step()};
+                }
+            return f;
+        };
+        for (std::uint32_t a = 0; a < facets; ++a)
+            for (std::uint32_t b = a + 1; b < facets; ++b) {
+                const bool are_neighbours = b == a + 1 || (a == 0 && b + 1 == facets);
+                const Facet f = facet_of(soup, a), g = facet_of(soup, b);
+                ASSERT_FALSE(meet(f, g)) << "run " << run << ", facets " << a << " and " << b;
+                for (int i = 0; i < 20 && !are_neighbours; ++i)
+                    ASSERT_FALSE(meet(moved(f), moved(g)))
+                        << "run " << run << ", facets " << a << " and " << b;
+            }
+    }
+    EXPECT_GT(spread, 500U);
+    EXPECT_GT(folded, 500U);
+}
+
+/// A sphere with eight times the square of `segments` facets, whose vertices are pushed about until it crosses itself.
+Soup crumpled_sphere(std::mt19937& random, int segments) {
+    const mesh::Mesh sphere = tests::octahedral_sphere(segments);
+    std::uniform_real_distribution<double> push(0.55, 1.45);
+    Soup soup;
+    for (const Vec3& vertex : sphere.vertices) {
+        const auto at = [&](double coordinate) {
+            return static_cast<std::int32_t>((1.5 + coordinate * push(random)) * (exact::universe_side / 3));
+        };
+        soup.points.push_back({at(vertex.x), at(vertex.y), at(vertex.z)});
+    }
+    for (const mesh::Triangle& t : sphere.triangles) soup.facets.push_back(t);
+    soup.transition.assign(soup.facets.size(), 0);
+    return soup;
+}
+
+TEST(FacetTree, FindsAllPairsThatMeetOfSurfacesWhoseStarsAreSpread) {
+    Context context;
+    context.threads = 1;
+    std::size_t met = 0, spread = 0;
+    for (int run = 0; run < 6 * tests::effort(); ++run) {
+        std::mt19937 random(static_cast<unsigned>(run));
+        const Soup soup = crumpled_sphere(random, 8 + run % 3);
+        const Stars stars = find_stars(soup, 0, context);
+        spread += static_cast<std::size_t>(std::count(stars.is_spread.begin(), stars.is_spread.end(), 1));
+        const FacetTree tree(soup, context, 0, stars.is_spread);
+        std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+        for (const FacetTree::Task& task : tree.pair_tasks(16))
+            tree.for_each_pair(task,
+                               [&](std::uint32_t a, std::uint32_t b) { found.insert(std::minmax(a, b)); });
+        for (std::uint32_t a = 0; a < soup.facets.size(); ++a)
+            for (std::uint32_t b = a + 1; b < soup.facets.size(); ++b)
+                if (meet(facet_of(soup, a), facet_of(soup, b))) {
+                    ++met;
+                    ASSERT_TRUE(found.count({a, b})) << "run " << run << ", facets " << a << " and " << b;
+                }
+    }
+    EXPECT_GT(met, 100U);
+    EXPECT_GT(spread, 100U);
 }
 
 }  // namespace

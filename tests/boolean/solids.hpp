@@ -300,6 +300,33 @@ inline std::string manifold_defect(const mesh::Mesh& mesh) {
     return "";
 }
 
+/// The unit sphere with 8 `segments`² triangles: an octahedron's sides cut up and blown up.
+inline mesh::Mesh octahedral_sphere(int segments) {
+    mesh::Mesh sphere;
+    std::map<Grid, std::uint32_t> number;
+    for (int sides = 0; sides < 8; ++sides) {
+        const int sx = sides & 1 ? -1 : 1, sy = sides & 2 ? -1 : 1, sz = sides & 4 ? -1 : 1;
+        const auto at = [&](int a, int b) {
+            const Grid grid{sx * (segments - a - b), sy * a, sz * b};
+            const auto [place, is_new] =
+                number.try_emplace(grid, static_cast<std::uint32_t>(sphere.vertices.size()));
+            const Vec3 way{static_cast<double>(grid[0]), static_cast<double>(grid[1]),
+                           static_cast<double>(grid[2])};
+            if (is_new) sphere.vertices.push_back((1 / length(way)) * way);
+            return place->second;
+        };
+        const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            sphere.triangles.push_back(sx * sy * sz > 0 ? mesh::Triangle{a, b, c} : mesh::Triangle{a, c, b});
+        };
+        for (int i = 0; i < segments; ++i)
+            for (int j = 0; j < segments - i; ++j) {
+                add(at(i, j), at(i + 1, j), at(i, j + 1));
+                if (i + j + 1 < segments) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+            }
+    }
+    return sphere;
+}
+
 /// Several bodies as one operand, which then intersects itself.
 inline mesh::Mesh joined(const std::vector<Convex>& bodies) {
     mesh::Mesh all;
