@@ -7,6 +7,7 @@
 #include <octavo/base/parallel.hpp>
 #include <octavo/boolean/arrangement.hpp>
 #include <octavo/boolean/cells.hpp>
+#include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/cut_planes.hpp>
 #include <octavo/boolean/subdivision.hpp>
 #include <octavo/exact/orient.hpp>
@@ -26,45 +27,60 @@ Plane plane_of(const Soup& soup, std::uint32_t facet) {
 
 /// The faces that are subdivided together, with their cuts.
 struct Sheet {
-    std::vector<std::uint32_t> faces;  ///< ascending
-    std::vector<Cut> cuts;
+    std::span<const std::uint32_t> faces;  ///< ascending
+    std::span<const Cut> cuts;
 };
 
-std::vector<Sheet> find_sheets(const Soup& soup, const Contacts& contacts) {
+/// All sheets, by their first faces.
+struct Sheets {
+    std::vector<std::uint32_t> faces,
+        first_face;  ///< `first_face` and `first_cut` per sheet, and one past the last
+    std::vector<Cut> cuts;
+    std::vector<std::uint32_t> first_cut;
+
+    std::size_t size() const { return first_face.size() - 1; }
+    Sheet operator[](std::size_t sheet) const {
+        return {{faces.data() + first_face[sheet], first_face[sheet + 1] - first_face[sheet]},
+                {cuts.data() + first_cut[sheet], first_cut[sheet + 1] - first_cut[sheet]}};
+    }
+};
+
+Sheets find_sheets(const Soup& soup, const Contacts& contacts) {
     mesh::DisjointSets sets(contacts.overlaps.empty() ? 0 : soup.facets.size());
     for (const Overlap& overlap : contacts.overlaps) sets.unite(overlap.first, overlap.second);
-    const auto root = [&](std::uint32_t facet) {
-        return contacts.overlaps.empty() ? facet : sets.find(facet);
-    };
 
     std::vector<std::uint32_t> sheet_of(soup.facets.size(), no_index);
-    std::vector<std::uint32_t> touched;
-    const auto touch = [&](std::uint32_t facet) {
-        if (sheet_of[facet] != no_index) return;
-        sheet_of[facet] = 0;
-        touched.push_back(facet);
-    };
-    for (const Cut& cut : contacts.cuts) touch(cut.face);
-    for (const Overlap& overlap : contacts.overlaps) touch(overlap.first), touch(overlap.second);
-    std::sort(touched.begin(), touched.end());
+    for (const Cut& cut : contacts.cuts) sheet_of[cut.face] = 0;
+    for (const Overlap& overlap : contacts.overlaps) sheet_of[overlap.first] = sheet_of[overlap.second] = 0;
 
-    // The least facet of a set comes first, so it opens the sheet.
-    std::vector<Sheet> sheets;
-    for (const std::uint32_t facet : touched) {
-        const std::uint32_t first = root(facet);
-        if (first == facet) {
-            sheet_of[facet] = static_cast<std::uint32_t>(sheets.size());
-            sheets.emplace_back();
+    // The least face of a set comes first, so it opens the sheet.
+    Sheets sheets;
+    for (std::uint32_t face = 0; face < sheet_of.size(); ++face) {
+        if (sheet_of[face] == no_index) continue;
+        const std::uint32_t first = contacts.overlaps.empty() ? face : sets.find(face);
+        if (first == face) {
+            sheet_of[face] = static_cast<std::uint32_t>(sheets.first_face.size());
+            sheets.first_face.push_back(0);
         } else {
-            sheet_of[facet] = sheet_of[first];
+            sheet_of[face] = sheet_of[first];
         }
-        sheets[sheet_of[facet]].faces.push_back(facet);
+        ++sheets.first_face[sheet_of[face]];
     }
-    for (const Cut& cut : contacts.cuts) sheets[sheet_of[cut.face]].cuts.push_back(cut);
+    sheets.first_cut.assign(sheets.first_face.size(), 0);
+    for (const Cut& cut : contacts.cuts) ++sheets.first_cut[sheet_of[cut.face]];
+    make_offsets(sheets.first_face);
+    make_offsets(sheets.first_cut);
+    sheets.faces.resize(sheets.first_face.back());
+    sheets.cuts.resize(sheets.first_cut.back());
+    std::vector<std::uint32_t> next(sheets.first_face);
+    for (std::uint32_t face = 0; face < sheet_of.size(); ++face)
+        if (sheet_of[face] != no_index) sheets.faces[next[sheet_of[face]]++] = face;
+    next = sheets.first_cut;
+    for (const Cut& cut : contacts.cuts) sheets.cuts[next[sheet_of[cut.face]]++] = cut;
     return sheets;
 }
 
-/// A subdivided sheet. Corners and covers are numbered within the sheet until all sheets are done.
+/// Subdivided sheets. Corners and covers are numbered among themselves until all are done.
 struct Pieces {
     std::vector<mesh::Triangle> triangles;  ///< point ids, or Subdivision::new_point + index
     std::vector<exact::TriplePoint> new_points;
@@ -80,68 +96,30 @@ struct Pieces {
 inline constexpr std::uint32_t is_cut_line =
     no_index;  ///< the tag of segments that are no border of a sheet's face
 
-/// All points that are known go in before any segment, so that a crossing of segments is never one of them.
-void insert_points(const Sheet& sheet, const CutPlanes& planes, Subdivision& subdivision,
-                   std::vector<Subdivision::PointOnLine>& points) {
-    for (const Cut& cut : sheet.cuts) {
-        points.push_back({cut.from, planes.of_facet[cut.other]});
-        points.push_back({cut.to, planes.of_facet[cut.other]});
-    }
-    subdivision.add_points(points);
-}
-
-void insert_segments(const Sheet& sheet, const CutPlanes& planes, Subdivision& subdivision) {
-    for (const Cut& cut : sheet.cuts)
-        if (cut.to != cut.from)
-            subdivision.add_segment(subdivision.vertex_of(cut.from), subdivision.vertex_of(cut.to),
-                                    planes.of_facet[cut.other], is_cut_line);
-}
-
-Pieces subdivide_face(const Soup& soup, const Faces& faces, const Sheet& sheet, const CutPlanes& planes,
-                      Subdivision& subdivision) {
-    const std::uint32_t face = sheet.faces[0];
-    const Faces::Corners corners = faces.corners(soup, face);
-    Point places[4];
-    for (std::uint32_t k = 0; k < corners.count; ++k) places[k] = soup.points[corners.vertex[k]];
-    subdivision.begin(plane_of(soup, face), {places, corners.count}, {corners.vertex.data(), corners.count});
-    std::vector<Subdivision::PointOnLine> points;
-    insert_points(sheet, planes, subdivision, points);
-    insert_segments(sheet, planes, subdivision);
-
-    Pieces pieces;
-    pieces.covers.push_back({face, {}, false});
-    for (const Subdivision::Triangle& t : subdivision.triangles()) {
-        pieces.triangles.push_back(
-            {subdivision.point_of(t.v[0]), subdivision.point_of(t.v[1]), subdivision.point_of(t.v[2])});
-        pieces.cover.push_back(0);
-    }
-    pieces.new_points.assign(subdivision.new_points().begin(), subdivision.new_points().end());
-    return pieces;
-}
-
 /// Labels the triangles of a sheet: which of its facets cover them.
 class CoverSearch {
   public:
     CoverSearch(const Soup& soup, const Plane& plane, const Subdivision& subdivision)
         : soup_(soup), plane_(plane), subdivision_(subdivision) {}
 
-    /// Fills `covers`, and `cover` per triangle of the subdivision: no_index outside of all facets.
-    void run(std::vector<std::uint32_t>& cover, std::vector<Pieces::Cover>& covers) {
-        const Cells cells = find_cells(subdivision_, is_cut_line);
+    /// Adds to `covers`, and fills `cover` per triangle of the subdivision: no_index outside of all facets.
+    void run(Cells& cells, std::vector<std::uint32_t>& cover, std::vector<Pieces::Cover>& covers) {
+        cells.find(subdivision_, is_cut_line);
         std::map<std::vector<std::uint32_t>, std::uint32_t> known;
         std::vector<std::uint32_t> cover_of_cell;
-        for (const std::vector<std::uint32_t>& facets : cells.covers) {
+        for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+            const std::span<const std::uint32_t> facets = cells.cover(cell);
             if (facets.empty()) {
                 cover_of_cell.push_back(no_index);
                 continue;
             }
-            const auto [place, is_new] = known.try_emplace(facets, static_cast<std::uint32_t>(covers.size()));
+            const auto [place, is_new] =
+                known.try_emplace({facets.begin(), facets.end()}, static_cast<std::uint32_t>(covers.size()));
             if (is_new) covers.push_back(cover_by(facets));
             cover_of_cell.push_back(place->second);
         }
-        cover.resize(cells.of_triangle.size());
-        for (std::size_t triangle = 0; triangle < cover.size(); ++triangle)
-            cover[triangle] = cover_of_cell[cells.of_triangle[triangle]];
+        cover.clear();
+        for (const std::uint32_t cell : cells.of_triangle()) cover.push_back(cover_of_cell[cell]);
     }
 
     bool same_way(std::uint32_t facet) const {
@@ -151,7 +129,7 @@ class CoverSearch {
 
   private:
     /// Deltas as seen by the first of the facets.
-    Pieces::Cover cover_by(const std::vector<std::uint32_t>& facets) const {
+    Pieces::Cover cover_by(std::span<const std::uint32_t> facets) const {
         Pieces::Cover cover{facets[0], {}, facets.size() > 1};
         if (!cover.shared) return cover;
         TransitionSum sum;
@@ -192,71 +170,157 @@ class BorderLines {
     std::map<std::array<std::int64_t, 3>, Subdivision::LineId> ids_;
 };
 
-Pieces subdivide_sheet(const Soup& soup, const Faces& faces, const Sheet& sheet, const CutPlanes& planes,
-                       Subdivision& subdivision) {
-    const Plane plane = plane_of(soup, sheet.faces[0]);
-    std::vector<Point> all_corners;
-    for (const std::uint32_t face : sheet.faces) {
-        const Faces::Corners corners = faces.corners(soup, face);
-        for (std::uint32_t k = 0; k < corners.count; ++k)
-            all_corners.push_back(soup.points[corners.vertex[k]]);
+/// Subdivides sheets one after another, in memory that they share.
+class SheetCutter {
+  public:
+    SheetCutter(const Soup& soup, const Faces& faces, const PointTable& points, const CutPlanes& planes,
+                Pieces& pieces)
+        : soup_(soup), faces_(faces), planes_(planes), subdivision_(points, planes.planes), pieces_(pieces) {}
+
+    void run(const Sheet& sheet) {
+        points_.clear();
+        if (sheet.faces.size() == 1)
+            cut_face(sheet);
+        else
+            cut_sheet(sheet);
+        pieces_.new_points.insert(pieces_.new_points.end(), subdivision_.new_points().begin(),
+                                  subdivision_.new_points().end());
     }
-    subdivision.begin_round(plane, all_corners);
-    BorderLines borders(soup, plane.dominant_axis(), subdivision);
+
+  private:
+    /// A point of the subdivision as the pieces name it.
+    std::uint32_t name(Subdivision::VertexId vertex) const {
+        const std::uint32_t id = subdivision_.point_of(vertex);
+        return id < Subdivision::new_point ? id : id + static_cast<std::uint32_t>(pieces_.new_points.size());
+    }
+    mesh::Triangle name(const Subdivision::Triangle& t) const {
+        return {name(t.v[0]), name(t.v[1]), name(t.v[2])};
+    }
+
+    /// All points that are known go in before any segment, so that a crossing of segments is never one of them.
+    void insert_points(const Sheet& sheet) {
+        for (const Cut& cut : sheet.cuts) {
+            points_.push_back({cut.from, planes_.of_facet[cut.other]});
+            points_.push_back({cut.to, planes_.of_facet[cut.other]});
+        }
+        subdivision_.add_points(points_);
+    }
+
+    void insert_segments(const Sheet& sheet) {
+        for (const Cut& cut : sheet.cuts)
+            if (cut.to != cut.from)
+                subdivision_.add_segment(subdivision_.vertex_of(cut.from), subdivision_.vertex_of(cut.to),
+                                         planes_.of_facet[cut.other], is_cut_line);
+    }
+
+    void cut_face(const Sheet& sheet) {
+        const std::uint32_t face = sheet.faces[0];
+        const Faces::Corners corners = faces_.corners(soup_, face);
+        Point places[4];
+        for (std::uint32_t k = 0; k < corners.count; ++k) places[k] = soup_.points[corners.vertex[k]];
+        subdivision_.begin(plane_of(soup_, face), {places, corners.count},
+                           {corners.vertex.data(), corners.count});
+        insert_points(sheet);
+        insert_segments(sheet);
+        const auto cover = static_cast<std::uint32_t>(pieces_.covers.size());
+        pieces_.covers.push_back({face, {}, false});
+        for (const Subdivision::Triangle& t : subdivision_.triangles()) pieces_.triangles.push_back(name(t));
+        pieces_.cover.resize(pieces_.triangles.size(), cover);
+    }
+
+    void cut_sheet(const Sheet& sheet) {
+        const Plane plane = plane_of(soup_, sheet.faces[0]);
+        corners_.clear();
+        for (const std::uint32_t face : sheet.faces) {
+            const Faces::Corners corners = faces_.corners(soup_, face);
+            for (std::uint32_t k = 0; k < corners.count; ++k)
+                corners_.push_back(soup_.points[corners.vertex[k]]);
+        }
+        subdivision_.begin_round(plane, corners_);
+        find_borders(sheet, plane.dominant_axis());
+        insert_points(sheet);
+        for (const Border& side : borders_)
+            subdivision_.add_segment(subdivision_.vertex_of(side.from), subdivision_.vertex_of(side.to),
+                                     side.line, side.face);
+        insert_segments(sheet);
+
+        CoverSearch search(soup_, plane, subdivision_);
+        search.run(cells_, cover_, pieces_.covers);
+        const auto triangles = subdivision_.triangles();
+        for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
+            if (cover_[triangle] == no_index) continue;
+            mesh::Triangle corners = name(triangles[triangle]);
+            if (!search.same_way(pieces_.covers[cover_[triangle]].facet)) std::swap(corners[1], corners[2]);
+            pieces_.triangles.push_back(corners);
+            pieces_.cover.push_back(cover_[triangle]);
+        }
+    }
+
+    /// The sides of a sheet's faces, and their ends, which go in with the points.
+    void find_borders(const Sheet& sheet, int axis) {
+        BorderLines lines(soup_, axis, subdivision_);
+        borders_.clear();
+        for (const std::uint32_t face : sheet.faces) {
+            const Faces::Corners corners = faces_.corners(soup_, face);
+            for (std::uint32_t k = 0; k < corners.count; ++k) {
+                const std::uint32_t from = corners.vertex[k], to = corners.vertex[(k + 1) % corners.count];
+                borders_.push_back({from, to, face, lines.of(from, to)});
+                points_.push_back({from, borders_.back().line});
+                points_.push_back({to, borders_.back().line});
+            }
+        }
+    }
+
     struct Border {
         std::uint32_t from, to, face;
         Subdivision::LineId line;
     };
-    std::vector<Border> sides;
-    std::vector<Subdivision::PointOnLine> points;
-    for (const std::uint32_t face : sheet.faces) {
-        const Faces::Corners corners = faces.corners(soup, face);
-        for (std::uint32_t k = 0; k < corners.count; ++k) {
-            const std::uint32_t from = corners.vertex[k], to = corners.vertex[(k + 1) % corners.count];
-            sides.push_back({from, to, face, borders.of(from, to)});
-            points.push_back({from, sides.back().line});
-            points.push_back({to, sides.back().line});
+
+    const Soup& soup_;
+    const Faces& faces_;
+    const CutPlanes& planes_;
+    Subdivision subdivision_;
+    Pieces& pieces_;
+    std::vector<Subdivision::PointOnLine> points_;
+    std::vector<Point> corners_;
+    std::vector<Border> borders_;
+    std::vector<std::uint32_t> cover_;
+    Cells cells_;
+};
+
+/// Names what sheets have made: points first, in their order, then the triangles side by side.
+void append(const Soup& soup, std::vector<Pieces>& all, PointTable& points, Complex& complex,
+            const Context& context) {
+    std::vector<std::vector<PointId>> point_of_new(all.size());
+    std::vector<std::vector<TransitionId>> transition_of(all.size());
+    std::vector<std::size_t> begin{0};
+    for (std::size_t part = 0; part < all.size(); ++part) {
+        Pieces& pieces = all[part];
+        for (const exact::TriplePoint& point : pieces.new_points)
+            point_of_new[part].push_back(points.add(point));
+        pieces.new_points = {};
+        for (const Pieces::Cover& cover : pieces.covers)
+            transition_of[part].push_back(cover.shared ? complex.transitions.intern(cover.deltas)
+                                                       : soup.transition[cover.facet]);
+        begin.push_back(begin.back() + pieces.triangles.size());
+    }
+    complex.pieces.resize(begin.back());
+    complex.piece_facet.resize(begin.back());
+    complex.piece_transition.resize(begin.back());
+    parallel_chunks(context, all.size(), 1, [&](std::size_t part, std::size_t) {
+        Pieces& pieces = all[part];
+        std::size_t at = begin[part];
+        for (std::size_t i = 0; i < pieces.triangles.size(); ++i, ++at) {
+            mesh::Triangle corners = pieces.triangles[i];
+            for (std::uint32_t& corner : corners)
+                if (corner >= Subdivision::new_point)
+                    corner = point_of_new[part][corner - Subdivision::new_point];
+            complex.pieces[at] = corners;
+            complex.piece_facet[at] = pieces.covers[pieces.cover[i]].facet;
+            complex.piece_transition[at] = transition_of[part][pieces.cover[i]];
         }
-    }
-    insert_points(sheet, planes, subdivision, points);
-    for (const Border& side : sides)
-        subdivision.add_segment(subdivision.vertex_of(side.from), subdivision.vertex_of(side.to), side.line,
-                                side.face);
-    insert_segments(sheet, planes, subdivision);
-
-    Pieces pieces;
-    std::vector<std::uint32_t> cover;
-    CoverSearch search(soup, plane, subdivision);
-    search.run(cover, pieces.covers);
-    const auto triangles = subdivision.triangles();
-    for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) {
-        if (cover[triangle] == no_index) continue;
-        const Subdivision::Triangle& t = triangles[triangle];
-        mesh::Triangle corners{subdivision.point_of(t.v[0]), subdivision.point_of(t.v[1]),
-                               subdivision.point_of(t.v[2])};
-        if (!search.same_way(pieces.covers[cover[triangle]].facet)) std::swap(corners[1], corners[2]);
-        pieces.triangles.push_back(corners);
-        pieces.cover.push_back(cover[triangle]);
-    }
-    pieces.new_points.assign(subdivision.new_points().begin(), subdivision.new_points().end());
-    return pieces;
-}
-
-void append(const Soup& soup, const Pieces& pieces, PointTable& points, Complex& complex) {
-    std::vector<PointId> id_of_new;
-    for (const exact::TriplePoint& point : pieces.new_points) id_of_new.push_back(points.add(point));
-    std::vector<TransitionId> transition;
-    for (const Pieces::Cover& cover : pieces.covers)
-        transition.push_back(cover.shared ? complex.transitions.intern(cover.deltas)
-                                          : soup.transition[cover.facet]);
-    for (std::size_t i = 0; i < pieces.triangles.size(); ++i) {
-        mesh::Triangle corners = pieces.triangles[i];
-        for (std::uint32_t& corner : corners)
-            if (corner >= Subdivision::new_point) corner = id_of_new[corner - Subdivision::new_point];
-        complex.pieces.push_back(corners);
-        complex.piece_facet.push_back(pieces.covers[pieces.cover[i]].facet);
-        complex.piece_transition.push_back(transition[pieces.cover[i]]);
-    }
+        pieces = {};
+    });
 }
 
 }  // namespace
@@ -266,28 +330,24 @@ Complex arrange(const Soup& soup, const Contacts& contacts, PointTable& points, 
     complex.soup = &soup;
     complex.transitions = soup.transitions;
     complex.is_cut.assign(soup.facets.size(), 0);
-    const std::vector<Sheet> sheets = find_sheets(soup, contacts);
+    const Sheets sheets = find_sheets(soup, contacts);
     complex.sheets = sheets.size();
     const CutPlanes planes = find_cut_planes(soup, contacts, context);
-    std::vector<Pieces> pieces(sheets.size());
-    parallel_chunks(context, sheets.size(), 64, [&](std::size_t begin, std::size_t end) {
-        Subdivision subdivision(points, planes.planes);
-        for (std::size_t i = begin; i < end; ++i)
-            pieces[i] = sheets[i].faces.size() == 1
-                            ? subdivide_face(soup, contacts.faces, sheets[i], planes, subdivision)
-                            : subdivide_sheet(soup, contacts.faces, sheets[i], planes, subdivision);
+    constexpr std::size_t grain = 64;
+    std::vector<Pieces> pieces((sheets.size() + grain - 1) / grain);
+    parallel_chunks(context, sheets.size(), grain, [&](std::size_t begin, std::size_t end) {
+        SheetCutter cutter(soup, contacts.faces, points, planes, pieces[begin / grain]);
+        for (std::size_t i = begin; i < end; ++i) cutter.run(sheets[i]);
     });
-    for (std::size_t i = 0; i < sheets.size(); ++i) {
-        for (const std::uint32_t face : sheets[i].faces) {
-            complex.is_cut[face] = 1;
-            const std::uint32_t partner = contacts.faces.partner(face);
-            if (partner == no_index) continue;
-            complex.is_cut[partner] = 1;
-            complex.joined.push_back({face, face});
-            complex.joined.push_back({partner, face});
-        }
-        append(soup, pieces[i], points, complex);
+    for (const std::uint32_t face : sheets.faces) {
+        complex.is_cut[face] = 1;
+        const std::uint32_t partner = contacts.faces.partner(face);
+        if (partner == no_index) continue;
+        complex.is_cut[partner] = 1;
+        complex.joined.push_back({face, face});
+        complex.joined.push_back({partner, face});
     }
+    if (!context.cancelled()) append(soup, pieces, points, complex, context);
     return complex;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <octavo/base/context.hpp>
+#include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/contacts.hpp>
 #include <octavo/boolean/point_table.hpp>
 #include <octavo/boolean/soup.hpp>
@@ -28,9 +29,9 @@ namespace octavo::boolean {
 struct Complex {
     const Soup* soup = nullptr;
     std::vector<char> is_cut;  ///< per facet of the soup: pieces stand for it
-    std::vector<mesh::Triangle> pieces;
-    std::vector<std::uint32_t> piece_facet;  ///< the name of its face
-    std::vector<TransitionId> piece_transition;
+    UninitialisedVector<mesh::Triangle> pieces;
+    UninitialisedVector<std::uint32_t> piece_facet;  ///< the name of its face
+    UninitialisedVector<TransitionId> piece_transition;
     TransitionTable transitions;  ///< the soup's and those of overlapping facets
     /// Facets of cut faces of two, and the face, after which their pieces are named.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;

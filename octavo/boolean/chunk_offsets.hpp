@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <octavo/base/parallel.hpp>
@@ -21,6 +23,13 @@ std::vector<std::size_t> chunk_offsets(const Context& context, std::size_t count
     });
     for (std::size_t chunk = 1; chunk < offset.size(); ++chunk) offset[chunk] += offset[chunk - 1];
     return offset;
+}
+
+/// Numbers of elements become their sums before each; one more tells the sum of all.
+inline void make_offsets(std::vector<std::uint32_t>& counts) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t& count : counts) sum += std::exchange(count, sum);
+    counts.push_back(sum);
 }
 
 }  // namespace octavo::boolean

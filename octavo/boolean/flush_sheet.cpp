@@ -117,10 +117,11 @@ bool subdivide_together(std::span<const BentFacet* const> facets, const Soup& so
     if (!subdivision.new_points().empty()) return false;
     subdivision.refine();
 
-    const Cells cells = find_cells(subdivision, no_index);
+    Cells cells;
+    cells.find(subdivision, no_index);
     const auto triangles = subdivision.triangles();
     for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (const std::uint32_t tag : cells.covers[cells.of_triangle[i]]) {
+        for (const std::uint32_t tag : cells.cover(cells.of_triangle()[i])) {
             const Subdivision::Triangle& t = triangles[i];
             into[tag].push_back(
                 {subdivision.point_of(t.v[0]), subdivision.point_of(t.v[1]), subdivision.point_of(t.v[2])});
