@@ -82,7 +82,10 @@ class CellIndex {
     Entry find(std::uint64_t code) const {
         const Kind kind = kind_of(code);
         if (kind == Kind::white || kind == Kind::black) return {kind, 0};
-        Entry entry = top(code);
+        return find_below(top(code), code);
+    }
+    /// The same from the entry of the table on.
+    Entry find_below(Entry entry, std::uint64_t code) const {
         for (int level = top_level_; entry.kind == Kind::brick; level += brick_levels) {
             prefetch_records(entry);
             entry = below(entry, code, level);

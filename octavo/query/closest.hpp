@@ -9,21 +9,20 @@
 
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
+#include <octavo/query/closest_search.hpp>
 #include <octavo/query/closest_tree.hpp>
 #include <octavo/query/inside.hpp>
 #include <octavo/query/triangle_distance.hpp>
 
 // Signed distance, nearest point, triangle and normal, exact and everywhere.
 //
-// A depth-first walk over boxes of eight (closest_tree.hpp), nearest child first, keeps an upper bound of the distance
-// and the few triangles that floats cannot exclude; those are compared exactly (triangle_distance.hpp). Of equally
-// near triangles the one with the lowest number is the answer, so it does not depend on the order of the walk, on
-// other points of a batch or on threads. The sign is that of InsideQuery: negative inside (winding number > 0).
+// A walk over boxes of eight (closest_search.hpp) finds the few triangles that floats cannot exclude; those are compared
+// exactly (triangle_distance.hpp). The sign is that of InsideQuery: negative inside (winding number > 0).
 //
 // Exact means: for the lattice mesh and the point to 62 bits (FixedPoint), the triangle is a nearest one; the distance
 // is its true distance rounded, to a few units in the last place of a double.
 //
-// Batches sort their points by Morton key and start each search from the answer before.
+// Batches sort their points by Morton key, and the distance of one bounds that of the next.
 
 namespace octavo::query {
 
@@ -41,8 +40,8 @@ struct ClosestOptions {
     /// Without a sign distances are positive everywhere, the mesh may be open, and half of the memory is saved.
     enum class Sign : std::uint8_t { inside_negative, none };
     Sign sign = Sign::inside_negative;
-    /// The sign costs a twentieth of the distance, so it may take half as long again for half the memory.
-    InsideOptions inside{.leaf_facets = 12};
+    /// The sign costs a fifth of the distance at most, so it may take a little longer for two thirds of the memory.
+    InsideOptions inside{.leaf_facets = 8};
 };
 
 class ClosestQuery {
@@ -63,15 +62,9 @@ class ClosestQuery {
     std::size_t memory_bytes() const;
 
   private:
-    /// A triangle, measured exactly.
-    struct Nearest {
-        mesh::FaceIndex face = Closest::no_triangle;
-        NearestFeature feature;
-    };
-    Nearest search(const FixedPoint& q, mesh::FaceIndex guess) const;
-    Closest answer(Vec3 world, const FixedPoint& q, const Nearest& nearest, Side side) const;
+    Closest answer(Vec3 world, const FixedPoint& q, const NearestTriangle& nearest, Side side) const;
 
-    mesh::LatticeMesh mesh_;
+    exact::Lattice lattice_;
     ClosestTree tree_;
     std::shared_ptr<const InsideQuery> inside_;
 };

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include <octavo/query/closest_tree.hpp>
+#include <octavo/query/turned_box.hpp>
 
 namespace octavo::query {
 namespace {
@@ -81,27 +83,34 @@ class TreeBuilder {
             parts[largest] = first;
             parts[count++] = second;
         }
-        TreeNode node{};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t i = 0; i < tree_width; ++i) {
-                node.low[axis][i] =
-                    i < count ? below(parts[i].box.low[axis]) : std::numeric_limits<float>::max();
-                node.high[axis][i] =
-                    i < count ? above(parts[i].box.high[axis]) : -std::numeric_limits<float>::max();
-            }
-        for (std::size_t i = 0; i < count; ++i)
-            node.child[i] = parts[i].count() <= tree_width ? add_leaf(parts[i]) : add_node(parts[i]);
-        tree_.nodes[index] = node;
+        tree_.nodes[index] = node_round(range.box, std::span(parts).first(count));
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t child =
+                parts[i].count() <= tree_width ? add_leaf(parts[i]) : add_node(parts[i]);
+            tree_.nodes[index].child[i] = child;
+        }
         return index;
     }
 
-    static float below(std::int32_t x) {
-        const float nearest = static_cast<float>(x);
-        return static_cast<double>(nearest) > x ? std::nextafter(nearest, -1e30F) : nearest;
-    }
-    static float above(std::int32_t x) {
-        const float nearest = static_cast<float>(x);
-        return static_cast<double>(nearest) < x ? std::nextafter(nearest, 1e30F) : nearest;
+    /// A node whose children have the boxes of these parts.
+    TreeNode node_round(const Box& whole, std::span<const Range> parts) const {
+        TreeNode node{};
+        std::int32_t half_side = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            node.origin[axis] = whole.low[axis] + (whole.high[axis] - whole.low[axis]) / 2;
+            half_side = std::max(half_side, whole.high[axis] - node.origin[axis]);
+        }
+        node.step = std::nextafter(static_cast<float>((half_side + 1) / TurnedBox::reach), 1e30F);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const TurnedBox box = TurnedBox::round(
+                mesh_, std::span(order_).subspan(parts[i].begin, parts[i].count()), node.origin, node.step);
+            for (std::size_t k = 0; k < 3; ++k) {
+                for (std::size_t axis = 0; axis < 3; ++axis) node.axes[k][axis][i] = box.axes[k][axis];
+                node.low[k][i] = box.low[k];
+                node.high[k][i] = box.high[k];
+            }
+        }
+        return node;
     }
 
     struct Bin {
@@ -176,51 +185,21 @@ class TreeBuilder {
 
     std::uint32_t add_leaf(const Range& range) {
         TreeLeaf leaf{};
-        leaf.count = range.count();
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            leaf.origin[axis] = range.box.low[axis] + (range.box.high[axis] - range.box.low[axis]) / 2;
         std::sort(order_.begin() + range.begin, order_.begin() + range.end);
-        double extent = 0;
         for (std::size_t i = 0; i < tree_width; ++i) {
-            leaf.face[i] = order_[range.begin + (i < leaf.count ? i : 0)];
-            const mesh::Triangle& t = mesh_.triangles[leaf.face[i]];
-            std::array<std::array<double, 3>, 3> edges{};  // a, u, v
+            const std::uint32_t place = std::min(range.begin + static_cast<std::uint32_t>(i), range.end - 1);
+            leaf.face[i] = i < range.count() ? order_[place] : TreeLeaf::no_face;
+            const mesh::Triangle& t = mesh_.triangles[order_[place]];
             for (int axis = 0; axis < 3; ++axis) {
                 const auto k = static_cast<std::size_t>(axis);
-                const std::int32_t a = mesh_.points[t[0]][axis], b = mesh_.points[t[1]][axis],
-                                   c = mesh_.points[t[2]][axis];
-                edges[0][k] = a - leaf.origin[k];
-                edges[1][k] = b - a;
-                edges[2][k] = c - a;
-                leaf.a[k][i] = static_cast<float>(edges[0][k]);
-                leaf.u[k][i] = static_cast<float>(edges[1][k]);
-                leaf.v[k][i] = static_cast<float>(edges[2][k]);
-                for (const std::int32_t x : {a, b, c})
-                    extent = std::max(extent, std::fabs(x - leaf.origin[k]));
+                const std::int32_t a = mesh_.points[t[0]][axis];
+                leaf.a[k][i] = a;
+                leaf.u[k][i] = mesh_.points[t[1]][axis] - a;
+                leaf.v[k][i] = mesh_.points[t[2]][axis] - a;
             }
-            leaf.error[i] = relative_error(edges[1], edges[2]);
         }
-        leaf.extent = std::nextafter(static_cast<float>(extent), 1e30F);
         tree_.leaves.push_back(leaf);
         return static_cast<std::uint32_t>(tree_.leaves.size() - 1) | TreeNode::leaf_bit;
-    }
-
-    /// Bounds the error of the measured distance by this times (|q|₁ + extent), q relative to the leaf's origin.
-    ///
-    /// With e = 2^-24: w = q − a errs by 3 e (|q| + extent) (q, a and the difference are rounded), and so do points of
-    /// edges, at parameters that err by 8 e |w| / |edge|: 12 e in all. The face: the computed normal u × v errs in
-    /// direction by 6 e k, k = |u| |v| / |u × v|; the height over the plane by (6 k + 4) e |w|; the tests whether the
-    /// foot lies in the triangle by 12 e k |w| (|u| + |v|) / |edge| <= 24 e k² |w| across the edge, since
-    /// |v| / |c − b| <= k. A foot taken for inside or outside wrongly is no farther from the border than that. So
-    /// 48 e k² (|q| + extent) covers all, k >= 1; 2^-18 k² is more.
-    static float relative_error(const std::array<double, 3>& u, const std::array<double, 3>& v) {
-        const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2],
-                     z = u[0] * v[1] - u[1] * v[0];
-        const double square = x * x + y * y + z * z;
-        const double lengths =
-            (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        if (!(square > 0x1p-30 * lengths)) return std::numeric_limits<float>::infinity();
-        return static_cast<float>(0x1p-18 * 1.001 * lengths / square);
     }
 
     const mesh::LatticeMesh& mesh_;

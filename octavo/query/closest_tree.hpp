@@ -5,47 +5,54 @@
 #include <cstdint>
 #include <vector>
 
-#include <octavo/base/context.hpp>
 #include <octavo/mesh/mesh.hpp>
+#include <octavo/query/huge_page_allocator.hpp>
+#include <octavo/query/lanes.hpp>
 
 // Boxes of boxes of triangles, eight at a time: where the search for the nearest triangle walks.
 //
-// Problem: a walk down a binary tree misses the cache at every step. Idea: nodes with eight children whose boxes are
-// compared by one vector instruction an axis and side, and leaves of up to eight triangles that are measured side by
-// side. All of it in floats, which are enough to *exclude*: boxes are rounded outwards, and each triangle carries a
-// bound on the error of its measured distance. What is not excluded is decided exactly (triangle_distance.hpp).
+// Problem: the nearest triangle of a point far off lies behind many boxes that stand nearer than their triangles,
+// because boxes along the axes stand off a slanting surface by their own size. Idea: each child has a box that is turned
+// so as to lie on its patch of surface (turned_box.hpp), and only a few remain. Nodes hold eight of them, compared side
+// by side, leaves up to eight triangles, measured side by side. All in floats, which are enough to *exclude*: boxes are
+// rounded outwards, and what is not excluded is decided exactly (triangle_distance.hpp), from the whole numbers that the
+// leaves hold.
+//
+//     axis-parallel ┌──────┐   turned  ╱╲          the nearer, the thicker the box: a point at distance d
+//                   │    ╱ │          ╱╱           looks into all boxes that are nearer than d
+//                   │  ╱   │         ╱╱
+//                   └──────┘        ╲╱
 //
 // Built top down by binned surface area (I. Wald, On fast construction of SAH-based bounding volume hierarchies,
 // 2007), counting full leaves of eight; a node takes eight parts by splitting its largest part again and again.
-// Cost: 224 bytes a node, 384 a leaf: 55 to 65 bytes a triangle; O(n log n).
+// Cost: 288 bytes a node, 320 a leaf: about 60 bytes a triangle; O(n log n).
 
 namespace octavo::query {
 
 inline constexpr std::size_t tree_width = 8;
 
-/// Eight floats that are computed with at once; GCC and Clang make AVX of it, or pairs of SSE or WebAssembly vectors.
-using Float8 = float __attribute__((vector_size(32)));
-using Int8 = std::int32_t __attribute__((vector_size(32)));
-
+/// Eight boxes along turned axes. A point p lies in box i iff low ≤ axes · (p − origin) / 32767 ≤ high, in steps.
 struct alignas(32) TreeNode {
     static constexpr std::uint32_t leaf_bit = 1U << 31;
-    std::array<Float8, 3> low, high;                ///< of the children; unused ones are nowhere (low > high)
-    std::array<std::uint32_t, tree_width> child{};  ///< a node, or with leaf_bit a leaf
+    std::array<std::array<Short8, 3>, 3> axes;  ///< of unit length: 32767
+    std::array<Short8, 3> low, high;
+    std::array<std::uint32_t, tree_width> child;  ///< a node, or with leaf_bit a leaf; 0 for none
+    std::array<std::int32_t, 3> origin;
+    float step;  ///< lattice units
 };
 
-/// Up to eight triangles a, a + u, a + v, relative to an origin of their own; unused places repeat the first one.
+/// Up to eight triangles a, a + u, a + v in lattice units; unused places repeat the last one without its number.
 struct alignas(32) TreeLeaf {
-    std::array<Float8, 3> a, u, v;
-    Float8 error;  ///< of the distance, relative to the size of the numbers that it is computed from
-    std::array<mesh::FaceIndex, tree_width> face{};
-    std::array<std::int32_t, 3> origin{};
-    float extent = 0;  ///< no coordinate of a, a + u, a + v is greater
-    std::uint32_t count = 0;
+    static constexpr mesh::FaceIndex no_face = 0xffffffff;
+    std::array<Int8, 3> a, u, v;
+    std::array<mesh::FaceIndex, tree_width> face;
 };
 
 struct ClosestTree {
-    std::vector<TreeNode> nodes;  ///< the root first; empty only for an empty mesh
-    std::vector<TreeLeaf> leaves;
+    template <class T>
+    using Array = std::vector<T, HugePageAllocator<T>>;
+    Array<TreeNode> nodes;  ///< the root first; empty only for an empty mesh
+    Array<TreeLeaf> leaves;
 
     static ClosestTree build(const mesh::LatticeMesh& mesh);
     std::size_t memory_bytes() const {

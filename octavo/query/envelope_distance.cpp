@@ -113,8 +113,10 @@ std::optional<LeafDistance> distance_in_leaf(const BpOctree& tree, Vec3 point) {
     std::optional<NearestFeature> nearest;
     LeafDistance answer;
     for (const mesh::FaceIndex face : tree.triangles_of(node)) {
-        const NearestFeature feature = nearest_feature(fixed, tree.mesh, face);
-        if (nearest && compare_distance(fixed, tree.mesh, feature, *nearest) >= 0) continue;
+        const mesh::Triangle& t = tree.mesh.triangles[face];
+        const auto& points = tree.mesh.points;
+        const NearestFeature feature = nearest_feature(fixed, {points[t[0]], points[t[1]], points[t[2]]});
+        if (nearest && compare_distance(fixed, feature, *nearest) >= 0) continue;
         nearest = feature;
         answer.triangle = face;
     }

@@ -27,12 +27,6 @@ inline double floor_of(double x) {
 
 }  // namespace
 
-/// A point in the universe: where it is and the Morton code of its cell of the last level.
-struct InsideQuery::Located {
-    LatticePlace place;
-    std::uint64_t code;
-};
-
 /// False for points outside the universe, which are outside the solid; NaN and infinity among them.
 inline bool InsideQuery::place(Vec3 point, Located& located) const {
     LatticePlace& place = located.place;
@@ -73,6 +67,25 @@ Side InsideQuery::operator()(Vec3 point) const {
     if (entry.kind != CellIndex::Kind::gray)
         return entry.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
     return test(LeafRecord::at(cells_.record(entry)), located.place);
+}
+
+InsideQuery::Begun InsideQuery::begin(Vec3 point) const {
+    Begun begun;
+    if (!place(point, begun.located)) return begun;
+    begun.kind = cells_.kind_of(begun.located.code);
+    if (begun.kind < CellIndex::Kind::gray) return begun;
+    begun.entry = cells_.top(begun.located.code);
+    if (begun.entry.kind == CellIndex::Kind::brick) cells_.prefetch_brick(begun.entry);
+    return begun;
+}
+
+Side InsideQuery::finish(const Begun& begun) const {
+    if (begun.kind < CellIndex::Kind::gray)
+        return begun.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
+    const CellIndex::Entry entry = cells_.find_below(begun.entry, begun.located.code);
+    if (entry.kind != CellIndex::Kind::gray)
+        return entry.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
+    return test(LeafRecord::at(cells_.record(entry)), begun.located.place);
 }
 
 /// Answers up to `block_size` points side by side: each round makes one load for every point that is still under way

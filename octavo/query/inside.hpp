@@ -74,13 +74,22 @@ class InsideQuery {
     std::vector<Side> operator()(std::span<const std::array<float, 3>> points,
                                  const Context& context = {}) const;
 
+    /// The same in two steps, for callers with other work between them: what the second needs is by then in the cache.
+    struct Begun;
+    Begun begin(Vec3 point) const;
+    Side finish(const Begun& begun) const;
+
     const exact::Lattice& lattice() const { return lattice_; }
     std::size_t memory_bytes() const;
     /// To facets, in all leaves together.
     std::size_t reference_count() const { return reference_count_; }
 
   private:
-    struct Located;
+    /// A point in the universe: where it is and the Morton code of its cell of the last level.
+    struct Located {
+        LatticePlace place;
+        std::uint64_t code = 0;
+    };
 
     /// So many points are under way at once: a core follows 10 to 20 misses, and a block's facets fit its cache.
     static constexpr std::size_t block_size = 32;
@@ -98,6 +107,12 @@ class InsideQuery {
     /// In the order in which the leaves name them, so that those of one place lie side by side; one more after the
     /// last, because they are read in words of 16 bytes.
     std::vector<classic::FacetCorners, HugePageAllocator<classic::FacetCorners>> facets_;
+};
+
+struct InsideQuery::Begun {
+    Located located;
+    CellIndex::Kind kind = CellIndex::Kind::white;
+    CellIndex::Entry entry;  ///< of the table, where the kind alone does not tell
 };
 
 /// One-off: builds an InsideQuery and asks it. Worth it from some hundred points on. Errors: as build, while asking too.

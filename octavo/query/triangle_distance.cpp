@@ -51,70 +51,51 @@ bool product_exceeds(int128 a, int128 b, int128 c, int128 d) {
 
 double square(double x) { return x * x; }
 
-/// A double and a bound on how far the number it stands for is from it. Bounds are themselves rounded, by less than
-/// 2^-40 of them in the few steps taken here, for which `sign` allows.
-struct Rounded {
-    double value = 0, error = 0;
-    static constexpr double unit = 0x1p-53;
+Vec3 rounded(const Difference& d) {
+    return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
+}
+double sum_of_magnitudes(Vec3 v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
-    static Rounded of(std::int64_t exact) {
-        const double value = static_cast<double>(exact);
-        return {value, unit * std::fabs(value)};
-    }
-    /// 0 when it is not known.
-    int sign() const {
-        const double bound = error * (1 + 0x1p-40);
-        return (value > bound) - (value < -bound);
-    }
-};
-Rounded operator+(Rounded a, Rounded b) {
-    const double value = a.value + b.value;
-    return {value, a.error + b.error + Rounded::unit * std::fabs(value)};
-}
-Rounded operator-(Rounded a, Rounded b) { return a + Rounded{-b.value, b.error}; }
-Rounded operator*(Rounded a, Rounded b) {
-    const double value = a.value * b.value;
-    return {value, std::fabs(a.value) * b.error + std::fabs(b.value) * a.error + a.error * b.error +
-                       Rounded::unit * std::fabs(value)};
-}
-Rounded dot(const std::array<Rounded, 3>& u, const std::array<Rounded, 3>& v) {
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-std::array<Rounded, 3> rounded(const Difference& d) {
-    return {Rounded::of(d[0]), Rounded::of(d[1]), Rounded::of(d[2])};
-}
+/// The sign of a number that is known to within an error; 0 when it is not known.
+int sign(double value, double error) { return (value > error) - (value < -error); }
 
 /// The part of a triangle a, b, c that is nearest.
 enum class Region : std::uint8_t { a, b, c, ab, ac, bc, face };
 
 /// The region, when doubles can tell. Points on borders of regions are left to the exact tests, whose order this
 /// follows.
+///
+/// With A the magnitudes of both edges and Q those of q − a, summed: all scalar products are below A (Q + A one) and
+/// err by less than 2^-49 of that (each factor is rounded once, each of three products and two sums too, and differences
+/// of three of them), products of two by 2^-46 of its square.
 std::optional<Region> region_by_filter(const Difference& edge_b, const Difference& edge_c,
                                        const Difference& from_a, double one) {
-    const std::array<Rounded, 3> ab = rounded(edge_b), ac = rounded(edge_c), qa = rounded(from_a);
-    const Rounded unit{one, 0};  // a power of two
-    const Rounded ab_ac = dot(ab, ac) * unit;
-    const Rounded d1 = dot(ab, qa), d2 = dot(ac, qa);
-    const Rounded d3 = d1 - dot(ab, ab) * unit, d4 = d2 - ab_ac, d5 = d1 - ab_ac,
-                  d6 = d2 - dot(ac, ac) * unit;
-    const int s1 = d1.sign(), s2 = d2.sign(), s3 = d3.sign(), s6 = d6.sign(), s43 = (d4 - d3).sign(),
-              s56 = (d5 - d6).sign();
+    const Vec3 ab = rounded(edge_b), ac = rounded(edge_c), qa = rounded(from_a);
+    const double edges = sum_of_magnitudes(ab) + sum_of_magnitudes(ac);
+    const double size = edges * (sum_of_magnitudes(qa) + edges * one);
+    const double error = 0x1p-49 * size, product_error = 0x1p-46 * size * size;
+    const double ab_ac = octavo::dot(ab, ac) * one;
+    const double d1 = octavo::dot(ab, qa), d2 = octavo::dot(ac, qa);
+    const double d3 = d1 - octavo::dot(ab, ab) * one, d4 = d2 - ab_ac, d5 = d1 - ab_ac,
+                 d6 = d2 - octavo::dot(ac, ac) * one;
+    const int s1 = sign(d1, error), s2 = sign(d2, error), s3 = sign(d3, error), s6 = sign(d6, error),
+              s43 = sign(d4 - d3, error), s56 = sign(d5 - d6, error);
     if (s1 == 0 || s2 == 0 || s3 == 0 || s6 == 0 || s43 == 0 || s56 == 0) return std::nullopt;
     if (s1 < 0 && s2 < 0) return Region::a;
     if (s3 > 0 && s43 < 0) return Region::b;
     if (s6 > 0 && s56 < 0) return Region::c;
     if (s1 > 0 && s3 < 0) {
-        const int beyond = (d1 * d4 - d3 * d2).sign();
+        const int beyond = sign(d1 * d4 - d3 * d2, product_error);
         if (beyond == 0) return std::nullopt;
         if (beyond < 0) return Region::ab;
     }
     if (s2 > 0 && s6 < 0) {
-        const int beyond = (d5 * d2 - d1 * d6).sign();
+        const int beyond = sign(d5 * d2 - d1 * d6, product_error);
         if (beyond == 0) return std::nullopt;
         if (beyond < 0) return Region::ac;
     }
     if (s43 > 0 && s56 > 0) {
-        const int beyond = (d3 * d6 - d5 * d4).sign();
+        const int beyond = sign(d3 * d6 - d5 * d4, product_error);
         if (beyond == 0) return std::nullopt;
         if (beyond < 0) return Region::bc;
     }
@@ -144,8 +125,8 @@ struct Fraction {
 };
 
 /// The squared distance times 4^shift.
-Fraction exact_square(const FixedPoint& q, const mesh::LatticeMesh& mesh, const NearestFeature& nearest) {
-    const exact::Point a = mesh.points[nearest.vertices[0]];
+Fraction exact_square(const FixedPoint& q, const NearestFeature& nearest) {
+    const exact::Point a = nearest.corners[0];
     const Difference qa = difference(q, a);
     Fraction result;
     const auto squared = [](int128 v) { return exact::multiply<4>(WideInt<2>(v), WideInt<2>(v)); };
@@ -154,13 +135,13 @@ Fraction exact_square(const FixedPoint& q, const mesh::LatticeMesh& mesh, const 
         result.denominator = WideInt<2>(1);
         return result;
     }
-    const Difference ab = edge(a, mesh.points[nearest.vertices[1]]);
+    const Difference ab = edge(a, nearest.corners[1]);
     if (nearest.feature == Feature::edge) {
         for (const int128 x : cross(ab, qa)) result.numerator += squared(x);
         result.denominator = WideInt<2>(dot(ab, ab));
         return result;
     }
-    const Difference n = normal(ab, edge(a, mesh.points[nearest.vertices[2]]));
+    const Difference n = normal(ab, edge(a, nearest.corners[2]));
     static_assert(53 + 63 + 2 < 127);
     result.numerator = squared(dot(n, qa));
     result.denominator = WideInt<2>(dot(n, n));
@@ -212,20 +193,19 @@ Vec3 FixedPoint::approximation() const {
             step * static_cast<double>(x[2])};
 }
 
-NearestFeature nearest_feature(const FixedPoint& q, const mesh::LatticeMesh& mesh, mesh::FaceIndex face) {
-    const mesh::Triangle& t = mesh.triangles[face];
-    const exact::Point a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]];
+NearestFeature nearest_feature(const FixedPoint& q, const Corners& triangle) {
+    const auto& [a, b, c] = triangle;
     const double step = 1 / static_cast<double>(std::int64_t{1} << q.shift), scale = step * step;
-    const auto at_vertex = [&](mesh::VertexIndex vertex) {
-        const Difference d = difference(q, mesh.points[vertex]);
+    const auto at_vertex = [&](exact::Point vertex) {
+        const Difference d = difference(q, vertex);
         const double sum = square(static_cast<double>(d[0])) + square(static_cast<double>(d[1])) +
                            square(static_cast<double>(d[2]));
         return NearestFeature{Feature::vertex, {vertex, vertex, vertex}, sum * scale};
     };
-    const auto on_edge = [&](mesh::VertexIndex from, mesh::VertexIndex to) {
+    const auto on_edge = [&](exact::Point from, exact::Point to) {
         if (from > to) std::swap(from, to);
-        const Difference e = edge(mesh.points[from], mesh.points[to]);
-        const std::array<int128, 3> w = cross(e, difference(q, mesh.points[from]));
+        const Difference e = edge(from, to);
+        const std::array<int128, 3> w = cross(e, difference(q, from));
         const double sum = square(static_cast<double>(w[0])) + square(static_cast<double>(w[1])) +
                            square(static_cast<double>(w[2]));
         return NearestFeature{Feature::edge, {from, to, to}, sum / static_cast<double>(dot(e, e)) * scale};
@@ -236,17 +216,17 @@ NearestFeature nearest_feature(const FixedPoint& q, const mesh::LatticeMesh& mes
         region_by_filter(ab, ac, qa, static_cast<double>(std::int64_t{1} << q.shift));
     switch (known ? *known : region_exactly(ab, ac, qa, q.shift)) {
         case Region::a:
-            return at_vertex(t[0]);
+            return at_vertex(a);
         case Region::b:
-            return at_vertex(t[1]);
+            return at_vertex(b);
         case Region::c:
-            return at_vertex(t[2]);
+            return at_vertex(c);
         case Region::ab:
-            return on_edge(t[0], t[1]);
+            return on_edge(a, b);
         case Region::ac:
-            return on_edge(t[0], t[2]);
+            return on_edge(a, c);
         case Region::bc:
-            return on_edge(t[1], t[2]);
+            return on_edge(b, c);
         case Region::face:
             break;
     }
@@ -254,36 +234,35 @@ NearestFeature nearest_feature(const FixedPoint& q, const mesh::LatticeMesh& mes
     const double along = static_cast<double>(dot(n, qa));
     const double length2 = square(static_cast<double>(n[0])) + square(static_cast<double>(n[1])) +
                            square(static_cast<double>(n[2]));
-    return {Feature::face, t, along * along / length2 * scale};
+    return {Feature::face, triangle, along * along / length2 * scale};
 }
 
-std::strong_ordering compare_distance(const FixedPoint& q, const mesh::LatticeMesh& mesh,
-                                      const NearestFeature& a, const NearestFeature& b) {
+std::strong_ordering compare_distance(const FixedPoint& q, const NearestFeature& a, const NearestFeature& b) {
     const double error = 0x1p-46 * (a.squared_distance + b.squared_distance);
     if (a.squared_distance < b.squared_distance - error) return std::strong_ordering::less;
     if (a.squared_distance > b.squared_distance + error) return std::strong_ordering::greater;
-    if (a.feature == b.feature && a.vertices == b.vertices) return std::strong_ordering::equal;
-    const Fraction first = exact_square(q, mesh, a), second = exact_square(q, mesh, b);
+    if (a.feature == b.feature && a.corners == b.corners) return std::strong_ordering::equal;
+    const Fraction first = exact_square(q, a), second = exact_square(q, b);
     static_assert(236 + 108 < 64 * 6 - 1);
     return exact::multiply<6>(first.numerator, second.denominator) <=>
            exact::multiply<6>(second.numerator, first.denominator);
 }
 
-Vec3 nearest_point(const FixedPoint& q, const mesh::LatticeMesh& mesh, const NearestFeature& feature) {
-    const exact::Point a = mesh.points[feature.vertices[0]];
+Vec3 nearest_point(const FixedPoint& q, const NearestFeature& feature) {
+    const exact::Point a = feature.corners[0];
     const Vec3 base{static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
     if (feature.feature == Feature::vertex) return base;
     const auto to_vector = [](const Difference& d) {
         return Vec3{static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
     };
-    const Difference ab = edge(a, mesh.points[feature.vertices[1]]), qa = difference(q, a);
+    const Difference ab = edge(a, feature.corners[1]), qa = difference(q, a);
+    const double step = 1 / static_cast<double>(std::int64_t{1} << q.shift);
     if (feature.feature == Feature::edge) {
-        const double t =
-            std::ldexp(static_cast<double>(dot(ab, qa)) / static_cast<double>(dot(ab, ab)), -q.shift);
+        const double t = static_cast<double>(dot(ab, qa)) / static_cast<double>(dot(ab, ab)) * step;
         return base + t * to_vector(ab);
     }
-    const Difference n = normal(ab, edge(a, mesh.points[feature.vertices[2]]));
-    const double t = std::ldexp(static_cast<double>(dot(n, qa)) / static_cast<double>(dot(n, n)), -q.shift);
+    const Difference n = normal(ab, edge(a, feature.corners[2]));
+    const double t = static_cast<double>(dot(n, qa)) / static_cast<double>(dot(n, n)) * step;
     return q.approximation() - t * to_vector(n);
 }
 

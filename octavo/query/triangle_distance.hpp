@@ -40,21 +40,23 @@ struct FixedPoint {
 
 enum class Feature : std::uint8_t { vertex, edge, face };
 
+/// Of a triangle.
+using Corners = std::array<exact::Point, 3>;
+
 struct NearestFeature {
     Feature feature = Feature::vertex;
-    /// Vertex: its index. Edge: both, the lower one first. Face: the triangle's vertices.
-    std::array<mesh::VertexIndex, 3> vertices{};
+    /// Vertex: it. Edge: both ends, the lesser one first. Face: the triangle's corners.
+    Corners corners{};
     double squared_distance = 0;  ///< lattice units, relative error below 2^-48
 };
 
 /// Degenerate triangles are segments or points.
-NearestFeature nearest_feature(const FixedPoint& q, const mesh::LatticeMesh& mesh, mesh::FaceIndex face);
+NearestFeature nearest_feature(const FixedPoint& q, const Corners& triangle);
 
 /// Compares the true squared distances.
-std::strong_ordering compare_distance(const FixedPoint& q, const mesh::LatticeMesh& mesh,
-                                      const NearestFeature& a, const NearestFeature& b);
+std::strong_ordering compare_distance(const FixedPoint& q, const NearestFeature& a, const NearestFeature& b);
 
 /// The nearest point of the feature, in lattice units, rounded.
-Vec3 nearest_point(const FixedPoint& q, const mesh::LatticeMesh& mesh, const NearestFeature& feature);
+Vec3 nearest_point(const FixedPoint& q, const NearestFeature& feature);
 
 }  // namespace octavo::query

@@ -184,6 +184,7 @@ Tally expect_answers_of_the_oracle(const mesh::LatticeMesh& mesh, const std::vec
         tally.add(expected);
         EXPECT_EQ((*query)(points[i]), expected) << points[i].x << " " << points[i].y << " " << points[i].z;
         EXPECT_EQ(batch[i], expected);
+        EXPECT_EQ(query->finish(query->begin(points[i])), expected);
         if (::testing::Test::HasFailure()) break;
     }
     return tally;
