@@ -147,7 +147,7 @@ class Bending {
     /// Crossings become vertices: one for all that are near each other, and none where a vertex is near both edges.
     void name_crossings() {
         PointIndex known;
-        const std::vector<Point> old = soup_.points;
+        const auto old = soup_.points;
         NearIndex added(tolerance_);
         for (const NearContacts::Crossing& crossing : near_.crossings) {
             Chain &first = *chain(crossing.first), &second = *chain(crossing.second);
@@ -311,9 +311,9 @@ class Bending {
 
 void replace_facets(std::map<std::uint32_t, std::vector<mesh::Triangle>> replaced, Soup& soup,
                     FlushReport& report, const Context& context) {
-    std::vector<mesh::Triangle> facets;
-    std::vector<TransitionId> transition;
-    std::vector<std::uint32_t> origin;
+    UninitialisedVector<mesh::Triangle> facets;
+    UninitialisedVector<TransitionId> transition;
+    UninitialisedVector<std::uint32_t> origin;
     const auto add = [&](const mesh::Triangle& corners, std::uint32_t facet) {
         if (exact::collinear(soup.points[corners[0]], soup.points[corners[1]], soup.points[corners[2]]))
             return false;

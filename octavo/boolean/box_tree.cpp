@@ -16,21 +16,25 @@ namespace {
 
 constexpr std::size_t grain = 1 << 14;
 
-/// Twice the centre of the facet's box, 27 bits a coordinate.
-std::array<std::uint32_t, 3> doubled_centre(const Soup& soup, std::uint32_t facet) {
+using Keyed = BoxTree::Keyed;
+
+struct Box {
+    exact::Point low, high;
+};
+
+Box box_of(const Soup& soup, std::uint32_t facet) {
     const mesh::Triangle& corners = soup.facets[facet];
     const exact::Point a = soup.points[corners[0]], b = soup.points[corners[1]], c = soup.points[corners[2]];
-    std::array<std::uint32_t, 3> centre;
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::int32_t x = a[axis], y = b[axis], z = c[axis];
-        centre[axis] = static_cast<std::uint32_t>(std::min({x, y, z}) + std::max({x, y, z}));
-    }
-    return centre;
+    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
 }
 
-struct Keyed {
-    std::uint32_t key, facet;
-};
+/// Twice the centre of a box, 27 bits a coordinate.
+std::array<std::uint32_t, 3> doubled_centre(const Box& box) {
+    return {static_cast<std::uint32_t>(box.low.x + box.high.x),
+            static_cast<std::uint32_t>(box.low.y + box.high.y),
+            static_cast<std::uint32_t>(box.low.z + box.high.z)};
+}
 
 // 10 of the 27 bits of an axis: a third of the memory traffic of sorting by full keys, and enough to tell the facets of
 // a million from one another where they are spread evenly.
@@ -80,7 +84,7 @@ void sort_runs(const Soup& soup, UninitialisedVector<Keyed>& keyed, std::size_t 
         if (after - i <= BoxTree::width) continue;
         run.clear();
         for (std::size_t k = i; k < after; ++k) {
-            const auto [x, y, z] = doubled_centre(soup, keyed[k].facet);
+            const auto [x, y, z] = doubled_centre(box_of(soup, keyed[k].facet));
             constexpr std::uint32_t mask = (1u << drop_bits) - 1;
             run.push_back({octree::interleave(x & mask, y & mask, z & mask), keyed[k].facet});
         }
@@ -99,22 +103,30 @@ void set_empty(BoxNode& node) {
 
 }  // namespace
 
+std::uint32_t BoxTree::key_of(exact::Point low, exact::Point high) {
+    const auto [x, y, z] = doubled_centre({low, high});
+    return static_cast<std::uint32_t>(octree::interleave(x >> drop_bits, y >> drop_bits, z >> drop_bits));
+}
+
 BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin,
-                 const Context& context, std::span<const char> spread)
-    : facets_(std::move(facets)) {
-    if (facets_.empty()) return;
-    UninitialisedVector<Keyed> keyed(facets_.size());
+                 const Context& context, std::span<const char> spread) {
+    UninitialisedVector<Keyed> keyed(facets.size());
     parallel_chunks(context, keyed.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const auto [x, y, z] = doubled_centre(soup, facets_[i]);
-            keyed[i] = {static_cast<std::uint32_t>(
-                            octree::interleave(x >> drop_bits, y >> drop_bits, z >> drop_bits)),
-                        facets_[i]};
+            const Box box = box_of(soup, facets[i]);
+            keyed[i] = {key_of(box.low, box.high), facets[i]};
         }
     });
+    *this = BoxTree(soup, std::move(keyed), margin, context, spread);
+}
+
+BoxTree::BoxTree(const Soup& soup, UninitialisedVector<Keyed> keyed, std::int32_t margin,
+                 const Context& context, std::span<const char> spread) {
+    if (keyed.empty()) return;
     sort_by_key(keyed, context);
     parallel_chunks(context, keyed.size(), grain,
                     [&](std::size_t begin, std::size_t end) { sort_runs(soup, keyed, begin, end); });
+    facets_.resize(keyed.size());
     parallel_chunks(context, keyed.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) facets_[i] = keyed[i].facet;
     });

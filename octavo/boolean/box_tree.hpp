@@ -34,10 +34,20 @@ class BoxTree {
   public:
     static constexpr int width = BoxNode::width;
 
+    /// A facet with a key by which facets are sorted: along the Morton curve of the centres of their boxes.
+    struct Keyed {
+        std::uint32_t key, facet;
+    };
+    /// Of a facet with the box from `low` to `high`.
+    static std::uint32_t key_of(exact::Point low, exact::Point high);
+
     BoxTree() = default;
     /// Of the facets listed; boxes are larger by `margin` on every side. `spread` tells of vertices what blocks note of
     /// them; none are when it is empty.
     BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin, const Context& context,
+            std::span<const char> spread = {});
+    /// Of facets whose keys are known.
+    BoxTree(const Soup& soup, UninitialisedVector<Keyed> keyed, std::int32_t margin, const Context& context,
             std::span<const char> spread = {});
 
     /// Calls `visit(facet)` for the facets whose boxes meet the closed box from `low` to `high`.
@@ -76,7 +86,7 @@ class BoxTree {
                      const Context& context);
     void build_levels(const Context& context);
 
-    std::vector<std::uint32_t> facets_;
+    UninitialisedVector<std::uint32_t> facets_;
     UninitialisedVector<FacetBlock> blocks_;
     std::vector<UninitialisedVector<BoxNode>> levels_;
 };

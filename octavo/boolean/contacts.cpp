@@ -3,6 +3,7 @@
 #include <array>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/contacts.hpp>
 #include <octavo/exact/intersect.hpp>
 #include <octavo/exact/orient.hpp>
@@ -214,9 +215,11 @@ void name_points(const Found& found, const Soup& soup, PointTable& points, Conta
     std::size_t next = 0;
     // A corner, or an edge, of a face is no cut in it.
     const auto add = [&](std::uint32_t id, std::uint32_t other, PointId from, PointId to) {
-        const Face face = load(soup, contacts.faces, id);
-        if (!face.has_corner(from) || !face.has_corner(to) || face.is_diagonal(from, to))
-            contacts.cuts.push_back({id, other, from, to});
+        if (points.is_vertex(from) && points.is_vertex(to)) {
+            const Face face = load(soup, contacts.faces, id);
+            if (face.has_corner(from) && face.has_corner(to) && !face.is_diagonal(from, to)) return;
+        }
+        contacts.cuts.push_back({id, other, from, to});
     };
     for (const Crossing& crossing : found.crossings) {
         PointId ends[2] = {no_index, no_index};
@@ -259,14 +262,23 @@ Pairs find_near(const Soup& soup, const FacetTree& tree, const Context& context)
 }
 
 /// The pairs of faces that pairs of facets belong to, each once.
-Pairs pairs_of_faces(const Faces& faces, const Pairs& near) {
-    Pairs pairs;
-    pairs.reserve(near.size());
-    for (const auto& [first, second] : near) {
-        const std::uint32_t a = faces.of(first), b = faces.of(second);
-        if (a != b) pairs.push_back(std::minmax(a, b));
-    }
-    std::sort(pairs.begin(), pairs.end());
+Pairs pairs_of_faces(std::size_t facets, const Faces& faces, const Pairs& near, const Context& context) {
+    const auto for_each = [&](const auto& visit) {
+        for (const auto& [first, second] : near) {
+            const std::uint32_t a = faces.of(first), b = faces.of(second);
+            if (a != b) visit(std::min(a, b), std::max(a, b));
+        }
+    };
+    std::vector<std::uint32_t> begin(facets, 0);
+    for_each([&](std::uint32_t low, std::uint32_t) { ++begin[low]; });
+    make_offsets(begin);
+    Pairs pairs(begin.back());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for_each([&](std::uint32_t low, std::uint32_t high) { pairs[next[low]++] = {low, high}; });
+    parallel_chunks(context, facets, 1 << 10, [&](std::size_t first, std::size_t last) {
+        for (std::size_t face = first; face < last; ++face)
+            std::sort(pairs.begin() + begin[face], pairs.begin() + begin[face + 1]);
+    });
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
@@ -278,8 +290,10 @@ Contacts find_contacts(const Soup& soup, const FacetTree& tree, PointTable& poin
     contacts.near = find_near(soup, tree, context);
     if (context.cancelled()) return contacts;
     contacts.faces = Faces(soup, contacts.near, context);
-    const Pairs pairs = contacts.faces.any_joined() ? pairs_of_faces(contacts.faces, contacts.near) : Pairs();
-    const Pairs& all = contacts.faces.any_joined() ? pairs : contacts.near;
+    const bool joined = contacts.faces.any_joined();
+    const Pairs pairs =
+        joined ? pairs_of_faces(soup.facets.size(), contacts.faces, contacts.near, context) : Pairs();
+    const Pairs& all = joined ? pairs : contacts.near;
 
     constexpr std::size_t grain = 1 << 10;
     std::vector<Found> found(all.size() / grain + 1);
@@ -290,6 +304,11 @@ Contacts find_contacts(const Soup& soup, const FacetTree& tree, PointTable& poin
             meet(first, load(soup, contacts.faces, all[i].second), found[begin / grain]);
         }
     });
+    std::size_t edge_points = 0, cuts = 0;
+    for (const Found& part : found)
+        edge_points += part.edge_points.size(), cuts += 2 * part.crossings.size() + part.touches.size();
+    points.reserve(edge_points / 2);  // an edge is that of two faces
+    contacts.cuts.reserve(cuts);
     for (Found& part : found) {
         name_points(part, soup, points, contacts);
         part = {};

@@ -14,17 +14,6 @@ namespace {
 /// mesh of equal ones. Less makes ordinary meshes pay for the separate descents, more leaves slivers among the others.
 constexpr double long_ratio = 8;
 
-std::int32_t longest_side(const Soup& soup, std::uint32_t facet) {
-    const mesh::Triangle& corners = soup.facets[facet];
-    const exact::Point a = soup.points[corners[0]], b = soup.points[corners[1]], c = soup.points[corners[2]];
-    std::int32_t longest = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::int32_t x = a[axis], y = b[axis], z = c[axis];
-        longest = std::max(longest, std::max(x, std::max(y, z)) - std::min(x, std::min(y, z)));
-    }
-    return longest;
-}
-
 }  // namespace
 
 FacetTree::FacetTree(const Soup& soup, const Context& context, double reach, std::span<const char> spread)
@@ -32,22 +21,32 @@ FacetTree::FacetTree(const Soup& soup, const Context& context, double reach, std
     const double limit =
         long_ratio * exact::universe_side / std::sqrt(static_cast<double>(soup.facets.size()) + 1);
     constexpr std::size_t grain = 1 << 14;
-    std::vector<char> is_long(soup.facets.size());
+    UninitialisedVector<std::uint32_t> keys(soup.facets.size());
+    UninitialisedVector<char> is_long(soup.facets.size());
     const std::vector<std::size_t> offset =
         chunk_offsets(context, is_long.size(), grain, [&](std::size_t begin, std::size_t end) {
             std::size_t count = 0;
             for (std::size_t facet = begin; facet < end; ++facet) {
-                is_long[facet] = longest_side(soup, static_cast<std::uint32_t>(facet)) > limit;
+                const mesh::Triangle& corners = soup.facets[facet];
+                const exact::Point a = soup.points[corners[0]], b = soup.points[corners[1]],
+                                   c = soup.points[corners[2]];
+                const exact::Point low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
+                                       std::min({a.z, b.z, c.z})},
+                    high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
+                is_long[facet] = std::max({high.x - low.x, high.y - low.y, high.z - low.z}) > limit;
+                keys[facet] = BoxTree::key_of(low, high);
                 count += is_long[facet] != 0;
             }
             return count;
         });
-    std::vector<std::uint32_t> ordinary(is_long.size() - offset.back()), long_ones(offset.back());
+    UninitialisedVector<BoxTree::Keyed> ordinary(is_long.size() - offset.back()), long_ones(offset.back());
     parallel_chunks(context, is_long.size(), grain, [&](std::size_t begin, std::size_t end) {
         std::size_t next_long = offset[begin / grain], next = begin - next_long;
         for (std::size_t facet = begin; facet < end; ++facet)
-            (is_long[facet] ? long_ones[next_long++] : ordinary[next++]) = static_cast<std::uint32_t>(facet);
+            (is_long[facet] ? long_ones[next_long++] : ordinary[next++]) = {
+                keys[facet], static_cast<std::uint32_t>(facet)};
     });
+    keys = {};
     // Of either box. Corners are integers: boxes that do not meet are a unit apart.
     const auto margin = reach < 1 ? 0 : static_cast<std::int32_t>(std::ceil(reach / 2));
     ordinary_ = BoxTree(soup, std::move(ordinary), margin, context, spread);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bit>
 #include <cmath>
 
 #include <octavo/boolean/any_point.hpp>
@@ -37,12 +38,19 @@ PointId PointTable::add_to(const P& point, std::vector<P>& same_kind, Constructe
     slots_[slot] = number;
     constructed_.push_back({cell.low, static_cast<std::uint32_t>(same_kind.size()) & 0x3fffffffu, kind});
     if (!cell.is_corner) same_kind.push_back(point);
-    if (2 * constructed_.size() > slots_.size()) grow();
+    if (2 * constructed_.size() > slots_.size()) rebuild_slots(2 * slots_.size());
     return vertices + number;
 }
 
-void PointTable::grow() {
-    slots_.assign(2 * slots_.size(), no_index);
+void PointTable::reserve(std::size_t edge_points) {
+    const std::size_t count = constructed_.size() + edge_points;
+    edge_points_.reserve(edge_points_.size() + edge_points);
+    constructed_.reserve(count);
+    if (2 * count > slots_.size()) rebuild_slots(std::bit_ceil(2 * count));
+}
+
+void PointTable::rebuild_slots(std::size_t count) {
+    slots_.assign(count, no_index);
     const std::size_t mask = slots_.size() - 1;
     for (std::uint32_t number = 0; number < constructed_.size(); ++number) {
         std::size_t slot = hash(constructed_[number].cell) & mask;

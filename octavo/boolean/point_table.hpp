@@ -29,6 +29,9 @@ class PointTable {
   public:
     explicit PointTable(const Soup& soup) : soup_(soup), slots_(64, no_index) {}
 
+    /// Makes room for so many more points where an edge meets a plane.
+    void reserve(std::size_t edge_points);
+
     PointId add(const exact::EdgePoint& point);
     PointId add(const exact::TriplePoint& point);
 
@@ -84,7 +87,7 @@ class PointTable {
     };
     template <class P>
     PointId add_to(const P& point, std::vector<P>& same_kind, Constructed::Kind kind);
-    void grow();
+    void rebuild_slots(std::size_t count);
 
     const Soup& soup_;
     std::vector<exact::EdgePoint> edge_points_;

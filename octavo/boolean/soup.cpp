@@ -70,12 +70,14 @@ std::vector<std::uint8_t> find_used(std::span<const mesh::Mesh* const> operands,
     parallel_chunks(context, triangles.begin.back(), chunk_size, [&](std::size_t first, std::size_t last) {
         triangles.for_each(first, last,
                            [&](std::uint32_t operand, std::size_t from, std::size_t to, std::size_t offset) {
-                               const mesh::Mesh& mesh = *operands[operand];
-                               for (std::size_t i = from; i < to; ++i)
-                                   for (const mesh::VertexIndex corner : mesh.triangles[i - offset])
-                                       if (corner < mesh.vertices.size())
-                                           std::atomic_ref(used[vertices.begin[operand] + corner])
-                                               .store(1, std::memory_order_relaxed);
+                               // Bytes may alias anything: what the loop needs is out of their reach.
+                               const std::span<const mesh::Triangle> all = operands[operand]->triangles;
+                               const std::size_t count = operands[operand]->vertices.size();
+                               std::uint8_t* const marks = used.data() + vertices.begin[operand];
+                               for (const mesh::Triangle& triangle : all.subspan(from - offset, to - from))
+                                   for (const mesh::VertexIndex corner : triangle)
+                                       if (corner < count)
+                                           std::atomic_ref(marks[corner]).store(1, std::memory_order_relaxed);
                            });
     });
     return used;

@@ -8,6 +8,7 @@
 
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
+#include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/transition.hpp>
 #include <octavo/exact/lattice.hpp>
 #include <octavo/mesh/mesh.hpp>
@@ -33,10 +34,11 @@ enum class OpenOperands : std::uint8_t {
 
 struct Soup {
     exact::Lattice lattice;
-    std::vector<exact::Point> points;
-    std::vector<mesh::Triangle> facets;
-    std::vector<TransitionId> transition;  ///< per facet: winding behind minus winding in front
-    std::vector<std::uint32_t> origin;     ///< per facet: the input triangle, counted through all operands
+    UninitialisedVector<exact::Point> points;
+    UninitialisedVector<mesh::Triangle> facets;
+    UninitialisedVector<TransitionId> transition;  ///< per facet: winding behind minus winding in front
+    UninitialisedVector<std::uint32_t>
+        origin;  ///< per facet: the input triangle, counted through all operands
     std::vector<std::uint32_t> first_triangle;  ///< per operand, and one past the last
     TransitionTable transitions;
 

@@ -18,8 +18,8 @@
 namespace octavo::boolean {
 
 struct Welded {
-    std::vector<exact::Point> points;     ///< each once, in the order of first appearance
-    std::vector<std::uint32_t> point_of;  ///< per position
+    UninitialisedVector<exact::Point> points;     ///< each once, in the order of first appearance
+    UninitialisedVector<std::uint32_t> point_of;  ///< per position
 };
 
 Welded weld(const UninitialisedVector<exact::Point>& positions, const Context& context);

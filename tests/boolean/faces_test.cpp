@@ -24,8 +24,8 @@ Pairs all_near(const Soup& soup) {
 /// Of facets in the plane z = 0, seen from above.
 Soup flat_soup(const std::vector<Point>& points, const std::vector<mesh::Triangle>& facets) {
     Soup soup;
-    soup.points = points;
-    soup.facets = facets;
+    soup.points.assign(points.begin(), points.end());
+    soup.facets.assign(facets.begin(), facets.end());
     soup.transition.assign(facets.size(), 0);
     return soup;
 }
