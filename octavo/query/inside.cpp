@@ -29,8 +29,6 @@ inline double floor_of(double x) {
 
 /// False for points outside the universe, which are outside the solid; NaN and infinity among them.
 inline bool InsideQuery::place(Vec3 point, Located& located) const {
-    LatticePlace& place = located.place;
-    place.world = point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double world = point[static_cast<int>(axis)];
         // Exact, but for underflow to zero, whose sign must not be lost, and overflow, which is outside anyway.
@@ -39,23 +37,24 @@ inline bool InsideQuery::place(Vec3 point, Located& located) const {
         const double floor = scaled == 0 && world < 0 ? -1.0 : floor_of(scaled);
         const std::int64_t whole = static_cast<std::int64_t>(floor) - lattice_.origin()[axis];
         if (whole < 0 || whole >= exact::universe_side) return false;
-        place.whole[axis] = static_cast<std::int32_t>(whole);
-        place.part[axis] = scaled - floor;
+        located.whole[axis] = static_cast<std::int32_t>(whole);
+        located.part[axis] = scaled - floor;
     }
-    const auto& w = place.whole;
+    const auto& w = located.whole;
     located.code = octree::CellKey::at({w[0], w[1], w[2]}, octree::max_level).code();
     return true;
 }
 
-Side InsideQuery::test(const LeafRecord& leaf, const LatticePlace& place) const {
+Side InsideQuery::test(const LeafRecord& leaf, Vec3 point, const Located& located) const {
     std::array<std::int32_t, 3> low;
     std::array<double, 3> offset;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = place.whole[axis] & -octree::cell_side(leaf.level);
-        offset[axis] = static_cast<double>(place.whole[axis] - low[axis]) + place.part[axis];
+        low[axis] = located.whole[axis] & -octree::cell_side(leaf.level);
+        offset[axis] = static_cast<double>(located.whole[axis] - low[axis]) + located.part[axis];
     }
     if (const std::optional<int> change = winding_change(leaf.facets, facets_, low, leaf.extent, offset))
         return leaf.winding + *change > 0 ? Side::inside : Side::outside;
+    const LatticePlace place{point, located.whole, located.part};
     const LeafAnswer answer = test_in_leaf(place, low, leaf.winding, leaf.facets, facets_, lattice_);
     return answer.on_facet ? Side::on : answer.winding > 0 ? Side::inside : Side::outside;
 }
@@ -66,11 +65,12 @@ Side InsideQuery::operator()(Vec3 point) const {
     const CellIndex::Entry entry = cells_.find(located.code);
     if (entry.kind != CellIndex::Kind::gray)
         return entry.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
-    return test(LeafRecord::at(cells_.record(entry)), located.place);
+    return test(LeafRecord::at(cells_.record(entry)), point, located);
 }
 
 InsideQuery::Begun InsideQuery::begin(Vec3 point) const {
     Begun begun;
+    begun.point = point;
     if (!place(point, begun.located)) return begun;
     begun.kind = cells_.kind_of(begun.located.code);
     if (begun.kind < CellIndex::Kind::gray) return begun;
@@ -85,7 +85,7 @@ Side InsideQuery::finish(const Begun& begun) const {
     const CellIndex::Entry entry = cells_.find_below(begun.entry, begun.located.code);
     if (entry.kind != CellIndex::Kind::gray)
         return entry.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
-    return test(LeafRecord::at(cells_.record(entry)), begun.located.place);
+    return test(LeafRecord::at(cells_.record(entry)), begun.point, begun.located);
 }
 
 /// Answers up to `block_size` points side by side: each round makes one load for every point that is still under way
@@ -135,7 +135,7 @@ void InsideQuery::answer_block(std::span<const Vec3> points, std::span<Side> sid
         for (const std::uint32_t facet : leaves[k].facets) prefetch(&facets_[facet]);
     }
     for (std::size_t k = 0; k < gray_count; ++k)
-        sides[in_gray[k]] = test(leaves[k], located[in_gray[k]].place);
+        sides[in_gray[k]] = test(leaves[k], points[in_gray[k]], located[in_gray[k]]);
 }
 
 template <class Point>

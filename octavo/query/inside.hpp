@@ -85,17 +85,19 @@ class InsideQuery {
     std::size_t reference_count() const { return reference_count_; }
 
   private:
-    /// A point in the universe: where it is and the Morton code of its cell of the last level.
+    /// A point in the universe: where it is (LatticePlace) and the Morton code of its cell of the last level. Blocks of
+    /// them are not worth initialising.
     struct Located {
-        LatticePlace place;
-        std::uint64_t code = 0;
+        std::array<std::int32_t, 3> whole;
+        std::array<double, 3> part;
+        std::uint64_t code;
     };
 
     /// So many points are under way at once: a core follows 10 to 20 misses, and a block's facets fit its cache.
     static constexpr std::size_t block_size = 32;
 
     bool place(Vec3 point, Located& located) const;
-    Side test(const LeafRecord& leaf, const LatticePlace& place) const;
+    Side test(const LeafRecord& leaf, Vec3 point, const Located& located) const;
     void answer_block(std::span<const Vec3> points, std::span<Side> sides) const;
     template <class Point>
     std::vector<Side> answer(std::span<const Point> points, const Context& context) const;
@@ -110,7 +112,8 @@ class InsideQuery {
 };
 
 struct InsideQuery::Begun {
-    Located located;
+    Vec3 point;
+    Located located{};
     CellIndex::Kind kind = CellIndex::Kind::white;
     CellIndex::Entry entry;  ///< of the table, where the kind alone does not tell
 };
