@@ -164,7 +164,20 @@ class PairTest {
     Vector own_normal_;
 };
 
-/// Those of the candidates of which not all corners, shared ones aside, are known to be on one side of the plane.
+}  // namespace
+
+unsigned sharing_spread(const FacetBlock& block, int lane, const FacetBlock& others) {
+    const BlockWords first = load_block(others.corner[0]), second = load_block(others.corner[1]),
+                     third = load_block(others.corner[2]);
+    BlockWords shares = {};
+    for (int k = 0; k < 3; ++k) {
+        const std::uint32_t corner = block.corner[k][lane];
+        const auto own = static_cast<std::int32_t>(corner & FacetBlock::spread ? corner : no_corner);
+        shares |= (first == own) | (second == own) | (third == own);
+    }
+    return bits(shares);
+}
+
 unsigned across_plane(const FacetBlock& block, const FacetPlanes& planes, int lane, const FacetBlock& others,
                       unsigned candidates) {
     const double a = planes.normal[0][lane], b = planes.normal[1][lane], c = planes.normal[2][lane];
@@ -193,20 +206,6 @@ unsigned across_plane(const FacetBlock& block, const FacetPlanes& planes, int la
     return candidates & ~(all_front | all_back);
 }
 
-}  // namespace
-
-unsigned sharing_spread(const FacetBlock& block, int lane, const FacetBlock& others) {
-    const BlockWords first = load_block(others.corner[0]), second = load_block(others.corner[1]),
-                     third = load_block(others.corner[2]);
-    BlockWords shares = {};
-    for (int k = 0; k < 3; ++k) {
-        const std::uint32_t corner = block.corner[k][lane];
-        const auto own = static_cast<std::int32_t>(corner & FacetBlock::spread ? corner : no_corner);
-        shares |= (first == own) | (second == own) | (third == own);
-    }
-    return bits(shares);
-}
-
 FacetPlanes::FacetPlanes(const FacetBlock& block, double reach) {
     for (int lane = 0; lane < FacetBlock::width; ++lane) {
         const auto at = [&](int corner, int axis) { return double(block.point[corner][axis][lane]); };
@@ -225,6 +224,11 @@ FacetPlanes::FacetPlanes(const FacetBlock& block, double reach) {
 unsigned may_meet(const FacetBlock& block, const FacetPlanes& planes, int lane, const FacetBlock& others,
                   unsigned candidates, double reach) {
     candidates = across_plane(block, planes, lane, others, candidates);
+    return candidates ? not_parted(block, lane, others, candidates, reach) : 0;
+}
+
+unsigned not_parted(const FacetBlock& block, int lane, const FacetBlock& others, unsigned candidates,
+                    double reach) {
     unsigned left = 0;
     for (int first = 0; first < FacetBlock::width; first += half_block) {
         unsigned some = candidates >> first & 0xf;

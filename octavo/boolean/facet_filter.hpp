@@ -50,4 +50,10 @@ struct alignas(32) FacetPlanes {
 unsigned may_meet(const FacetBlock& block, const FacetPlanes& planes, int lane, const FacetBlock& others,
                   unsigned candidates, double reach = 0);
 
+/// Its two halves: those that the plane of `lane` does not part from it, and those that nothing else does.
+unsigned across_plane(const FacetBlock& block, const FacetPlanes& planes, int lane, const FacetBlock& others,
+                      unsigned candidates);
+unsigned not_parted(const FacetBlock& block, int lane, const FacetBlock& others, unsigned candidates,
+                    double reach);
+
 }  // namespace octavo::boolean

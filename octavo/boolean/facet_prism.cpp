@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <span>
 
 #include <octavo/boolean/facet_prism.hpp>
 #include <octavo/boolean/lanes.hpp>
@@ -57,6 +58,25 @@ unsigned FacetPrism::meeting(const BoxNode& node, unsigned candidates) const {
             return bits(value <= plane.bound);
         };
         candidates &= behind(0) | behind(half_block) << half_block;
+    }
+    return candidates;
+}
+
+unsigned FacetPrism::meeting(const FacetBlock& others, unsigned candidates) const {
+    for (const Plane& edge : std::span(planes_).subspan<2>()) {
+        unsigned beyond = candidates;
+        for (int corner = 0; corner < 3 && beyond; ++corner) {
+            const auto in_front = [&](int first) {
+                const Reals value =
+                    edge.normal[0] * load_reals(others.point[corner][0] + first) +
+                    edge.normal[1] * load_reals(others.point[corner][1] + first) +
+                    (edge.normal[2] * load_reals(others.point[corner][2] + first) + edge.offset);
+                return bits(value > edge.bound);
+            };
+            beyond &= in_front(0) | in_front(half_block) << half_block;
+        }
+        candidates &= ~beyond;
+        if (!candidates) break;
     }
     return candidates;
 }

@@ -7,7 +7,8 @@
 // edges along its dominant axis, tested against eight boxes at once.
 //
 // A box round a sliver that lies askew holds thousands of facets that the sliver is nowhere near; its four planes say
-// so for whole nodes of a tree. Conservative: rounding is allowed for as in facet_filter.hpp.
+// so for whole nodes of a tree, and its edges for most of the facets that its plane cuts. Conservative: rounding is
+// allowed for as in facet_filter.hpp.
 // Cost: about 100 instructions for eight boxes.
 
 namespace octavo::boolean {
@@ -19,6 +20,8 @@ class FacetPrism {
 
     /// Those of the boxes `candidates` of `node` (bit k is lane k) that the facet may meet.
     unsigned meeting(const BoxNode& node, unsigned candidates) const;
+    /// Those of the facets that are not all beyond one edge.
+    unsigned meeting(const FacetBlock& others, unsigned candidates) const;
 
   private:
     struct Plane {

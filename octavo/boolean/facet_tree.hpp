@@ -144,11 +144,13 @@ class FacetTree {
         unsigned hits = meeting(node, facet.box, facet.lane);
         if (level == 0 && begin > number * width) hits &= ~0u << (begin - number * width);
         if (level > 0) {
-            hits = facet.prism.meeting(node, hits);
+            // Boxes of other slivers, and of larger nodes, are so large that the planes hardly ever miss them.
+            if (level == 1 && &tree == &ordinary_) hits = facet.prism.meeting(node, hits);
         } else if (hits) {
             if (facet.has_spread_corner) hits &= ~sharing_spread(facet.block, facet.lane, tree.block(number));
-            if (hits)
-                hits = may_meet(facet.block, facet.planes, facet.lane, tree.block(number), hits, reach_);
+            if (hits) hits = across_plane(facet.block, facet.planes, facet.lane, tree.block(number), hits);
+            if (hits) hits = facet.prism.meeting(tree.block(number), hits);
+            if (hits) hits = not_parted(facet.block, facet.lane, tree.block(number), hits, reach_);
         }
         for (; hits; hits &= hits - 1) {
             const std::uint32_t child = number * width + static_cast<std::uint32_t>(std::countr_zero(hits));
