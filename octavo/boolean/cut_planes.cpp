@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include <bit>
 
 #include <octavo/base/parallel.hpp>
 #include <octavo/boolean/cut_planes.hpp>
@@ -18,11 +18,19 @@ Plane unoriented_plane(const Soup& soup, std::uint32_t facet) {
     return first > 0 ? plane : plane.reversed();
 }
 
-bool before(const Plane& p, const Plane& q) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (p.normal(axis) != q.normal(axis)) return p.normal(axis) < q.normal(axis);
-    return p.d() < q.d();
+std::uint64_t hash(const Plane& plane) {
+    std::uint64_t mixed = static_cast<std::uint64_t>(plane.d());
+    for (int axis = 0; axis < 3; ++axis) {
+        mixed = (mixed ^ static_cast<std::uint64_t>(plane.normal(axis))) * 0x9E3779B97F4A7C15ull;
+        mixed ^= mixed >> 31;
+    }
+    return mixed;
 }
+
+struct Hashed {
+    Plane plane;
+    std::uint64_t hash;
+};
 
 }  // namespace
 
@@ -35,18 +43,24 @@ CutPlanes find_cut_planes(const Soup& soup, const Contacts& contacts, const Cont
         result.of_facet[cut.other] = 0;
         cutters.push_back(cut.other);
     }
-    std::vector<Plane> planes(cutters.size());
+    std::vector<Hashed> planes(cutters.size());
     parallel_chunks(context, cutters.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) planes[i] = unoriented_plane(soup, cutters[i]);
+        for (std::size_t i = begin; i < end; ++i) {
+            planes[i].plane = unoriented_plane(soup, cutters[i]);
+            planes[i].hash = hash(planes[i].plane);
+        }
     });
-    std::vector<std::uint32_t> order(cutters.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        return before(planes[i], planes[j]) || (planes[i] == planes[j] && i < j);
-    });
-    for (const std::uint32_t i : order) {
-        if (result.planes.empty() || !(result.planes.back() == planes[i])) result.planes.push_back(planes[i]);
-        result.of_facet[cutters[i]] = static_cast<std::uint32_t>(result.planes.size() - 1);
+    std::vector<std::uint32_t> slots(std::bit_ceil(2 * cutters.size() + 1), no_index);
+    const std::size_t mask = slots.size() - 1;
+    for (std::size_t i = 0; i < cutters.size(); ++i) {
+        std::size_t slot = planes[i].hash & mask;
+        while (slots[slot] != no_index && !(result.planes[slots[slot]] == planes[i].plane))
+            slot = (slot + 1) & mask;
+        if (slots[slot] == no_index) {
+            slots[slot] = static_cast<std::uint32_t>(result.planes.size());
+            result.planes.push_back(planes[i].plane);
+        }
+        result.of_facet[cutters[i]] = slots[slot];
     }
     return result;
 }
