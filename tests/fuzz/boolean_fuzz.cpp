@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "../boolean/laws.hpp"
+#include "boolean/laws.hpp"
 
 // Set operations on operands made of any bytes; the laws that must hold are in the header.
 
