@@ -173,7 +173,7 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     phases.begin("index", 0.15);
     const Numbers numbers = usable_numbers(soup->lattice, options.numbers, report);
     const double reach = contact_reach(soup->lattice, numbers);
-    const Stars stars = find_stars(*soup, reach, context);
+    Stars stars = find_stars(*soup, reach, context);
     if (context.cancelled()) return Context::cancelled_error();
     FacetTree tree(*soup, context, reach, stars.is_spread);
 
@@ -195,12 +195,14 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
     const Result<Patches> patches = find_patches(complex, stars, points, context);
     if (!patches) return patches.error();
     report.patches = patches->count;
+    stars = {};
 
     phases.begin("classify", 0.8);
     const Result<Classification> classification =
         classify(complex, points, tree, *patches, program, options.dangling, context);
     if (!classification) return classification.error();
     report.components = classification->components;
+    tree = {};
 
     phases.begin("assemble", 0.85);
     Surface surface = select(complex, *patches, *classification, context);
