@@ -15,6 +15,7 @@
 #include <octavo/boolean/patches.hpp>
 #include <octavo/boolean/program.hpp>
 #include <octavo/boolean/soup.hpp>
+#include <octavo/boolean/stars.hpp>
 #include <octavo/boolean/surface.hpp>
 #include <octavo/bsp_octree/faces.hpp>
 
@@ -154,7 +155,8 @@ inline Fingerprint fingerprint_of(std::span<const mesh::Mesh> operands, const bo
     boolean::PointTable points(*soup);
     const boolean::Contacts contacts = boolean::find_contacts(*soup, tree, points, context);
     const boolean::Complex complex = boolean::arrange(*soup, contacts, points, context);
-    const Result<boolean::Patches> patches = boolean::find_patches(complex, points, context);
+    const Result<boolean::Patches> patches =
+        boolean::find_patches(complex, boolean::find_stars(*soup, 0, context), points, context);
     EXPECT_TRUE(patches);
     const Result<boolean::Classification> classification =
         boolean::classify(complex, points, tree, *patches, program, boolean::Dangling::dropped, context);
