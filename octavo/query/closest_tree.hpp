@@ -14,18 +14,18 @@
 // Problem: the nearest triangle of a point far off lies behind many boxes that stand nearer than their triangles,
 // because boxes along the axes stand off a slanting surface by their own size. Idea: each child has a box that is turned
 // so as to lie on its patch of surface (turned_box.hpp), and only a few remain. Nodes hold eight of them, compared side
-// by side, leaves up to eight triangles, measured side by side. All in floats, which are enough to *exclude*: boxes are
-// rounded outwards, and what is not excluded is decided exactly (triangle_distance.hpp), from the whole numbers that the
-// leaves hold.
+// by side, leaves up to eight triangles, measured side by side. All in floats, which are enough to *exclude*: boxes
+// are rounded outwards, and what is not excluded is decided exactly (triangle_distance.hpp), from the whole numbers
+// that the leaves hold.
 //
-//     axis-parallel ┌──────┐   turned  ╱╲          the nearer, the thicker the box: a point at distance d
-//                   │    ╱ │          ╱╱           looks into all boxes that are nearer than d
-//                   │  ╱   │         ╱╱
-//                   └──────┘        ╲╱
+//     along the axes ┌──────┐   turned   ╱╲     a point at distance d looks into all boxes nearer than d:
+//                    │    ╱ │           ╱╱      many of the thick ones, few of the thin ones
+//                    │  ╱   │          ╱╱
+//                    └──────┘          ╲╱
 //
 // Built top down by binned surface area (I. Wald, On fast construction of SAH-based bounding volume hierarchies,
 // 2007), counting full leaves of eight; a node takes eight parts by splitting its largest part again and again.
-// Cost: 288 bytes a node, 320 a leaf: about 60 bytes a triangle; O(n log n).
+// Cost: 288 bytes a node, 320 a leaf: 55 bytes a triangle; O(n log n).
 
 namespace octavo::query {
 

@@ -8,7 +8,6 @@
 #include <octavo/base/vec3.hpp>
 #include <octavo/exact/lattice.hpp>
 #include <octavo/exact/wide_int.hpp>
-#include <octavo/mesh/mesh.hpp>
 
 // The part of a triangle that is nearest to a point, and how far it is: exact.
 //

@@ -10,9 +10,9 @@
 // A thin box round a patch of surface: along the patch's mean normal, and along those directions in its plane that make
 // the box small; along the coordinate axes where that is smaller.
 //
-// Axes are whole numbers, so that a few bytes hold a box and its sides are those of the axes that are stored, not of those
-// that were meant. They are at right angles and of unit length but for 3 · 0.5 / 32767 < 5e-5 in all, so a point is at
-// least 1 − 5e-5 times as far from the box as its coordinates along the axes say.
+// Axes are whole numbers, so that a few bytes hold a box and its sides are those of the axes that are stored, not of
+// those that were meant. They are at right angles and of unit length but for 3 · 0.5 / 32767 < 5e-5 in all, so a point
+// is at least 1 − 5e-5 times as far from the box as its coordinates along the axes say.
 
 namespace octavo::query {
 
