@@ -16,14 +16,24 @@ constexpr std::size_t most_signs = std::size_t{1} << 22;
 /// many faces in few planes would have many.
 constexpr std::size_t most_face_words = 4;
 
+/// Whether it is worth while to look for a plane that is no face's: one that cuts `both` faces and leaves `more` on one
+/// side is the best of those that are. Few faces lie in every other plane by chance.
+bool separates_poorly(std::uint32_t both, std::uint32_t more, std::uint32_t count) {
+    constexpr std::uint32_t few = 8, many = 256;
+    return (count >= few && both > count / 8) || (count >= many && more > count - count / 8);
+}
+
 constexpr std::size_t word_bits = 64;
 constexpr std::size_t words_for(std::size_t vertices) { return (vertices + word_bits - 1) / word_bits; }
 constexpr std::uint64_t bit_of(std::uint32_t vertex) { return std::uint64_t{1} << vertex % word_bits; }
 
 }  // namespace
 
-void TreeBuilder::build(FragmentPool& pool, std::span<const Fragment> fragments, std::vector<Node>& nodes) {
+void TreeBuilder::build(FragmentPool& pool, PlaneTable& planes, std::span<const Fragment> fragments,
+                        std::vector<Node>& nodes) {
+    OCTAVO_DCHECK(&pool.planes() == &planes, "separators must be added to the table of the pool");
     const FragmentPool::Mark mark = pool.mark();
+    table_ = &planes;
     gather(pool, fragments);
     const auto base = static_cast<std::int32_t>(nodes.size());
     list_.clear();
@@ -57,7 +67,7 @@ void TreeBuilder::build(FragmentPool& pool, std::span<const Fragment> fragments,
             if (side.front) front_.push_back(front);
             if (side.back) back_list_.push_back(back);
         }
-        // A side without faces is on one side of the faces in the plane, all over.
+        // A side without faces is on one side of the faces in the plane, all over; a separator has faces on both.
         nodes.push_back({planes_[plane], Child::leaf(reversed ? Label::in : Label::out),
                          Child::leaf(reversed ? Label::out : Label::in)});
         list_.resize(task.begin);
@@ -86,11 +96,7 @@ void TreeBuilder::gather(FragmentPool& pool, std::span<const Fragment> fragments
     planes_.assign(plane_number_.values().begin(), plane_number_.values().end());
     vertices_.assign(vertex_number_.values().begin(), vertex_number_.values().end());
     coefficients_.clear(), places_.clear();
-    for (const PlaneId id : planes_) {
-        const exact::Plane& plane = pool.planes()[id];
-        coefficients_.push_back({static_cast<double>(plane.a()), static_cast<double>(plane.b()),
-                                 static_cast<double>(plane.c()), plane.d_approximation()});
-    }
+    for (const PlaneId id : planes_) coefficients_.push_back(coefficients_of(pool.planes()[id]));
     for (const VertexId vertex : vertices_) places_.push_back(pool.approximation(vertex));
     keeps_signs_ = vertices_.size() * planes_.size() <= most_signs;
     piece_sets_.clear();
@@ -153,35 +159,39 @@ void TreeBuilder::add_piece(const Piece& piece) {
 std::uint32_t TreeBuilder::choose(std::uint32_t begin, std::uint32_t end) {
     const std::uint32_t count = end - begin;
     if (options_.partition == Partition::first || count == 1) return pieces_[list_[begin]].plane;
-    if (options_.partition == Partition::random || !keeps_signs_) {
-        random_ = random_ * 6364136223846793005ull + 1442695040888963407ull;
-        return pieces_[list_[begin + static_cast<std::uint32_t>((random_ >> 33) % count)]].plane;
-    }
-    const std::uint32_t candidates = std::min(options_.candidates, count);
+    if (options_.partition == Partition::random) return pieces_[list_[begin + random_below(count)]].plane;
+    // Where signs are not kept, each candidate costs as much as the cut itself.
+    const std::uint32_t candidates = std::min(keeps_signs_ ? options_.candidates : 1, count);
     std::uint32_t best = 0, least = ~std::uint32_t{0};
+    Score found;
     for (std::uint32_t i = 0; i < candidates; ++i) {
-        const std::uint32_t plane = pieces_[list_[begin + i * count / candidates]].plane;
-        const std::uint32_t cost = score(plane, begin, end, least);
-        if (cost < least) least = cost, best = plane;
+        const std::uint32_t at = keeps_signs_ ? i * count / candidates : random_below(count);
+        const std::uint32_t plane = pieces_[list_[begin + at]].plane;
+        const Score score_here = score(plane, begin, end, least);
+        if (score_here.cost() < least) least = score_here.cost(), best = plane, found = score_here;
     }
-    return best;
+    if (!separates_poorly(found.both, std::max(found.front, found.back), count)) return best;
+    return choose_separator(begin, end, least).value_or(best);
 }
 
-/// The cost of a plane; anything not less than `enough` when it is no less.
-std::uint32_t TreeBuilder::score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end,
-                                 std::uint32_t enough) {
-    // A cut makes one more face, and so at least one more node; a tree that leans costs depth only.
-    constexpr std::uint32_t cost_of_cut = 4;
-    std::uint32_t front = 0, back = 0, both = 0;
+std::uint32_t TreeBuilder::random_below(std::uint32_t count) {
+    random_ = random_ * 6364136223846793005ull + 1442695040888963407ull;
+    return static_cast<std::uint32_t>((random_ >> 33) % count);
+}
+
+/// What a plane does to the pieces; when it costs no less than `enough`, something that does not either.
+TreeBuilder::Score TreeBuilder::score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end,
+                                      std::uint32_t enough) {
+    Score result;
     for (std::uint32_t i = begin; i < end; ++i) {
         if (pieces_[list_[i]].plane == plane) continue;
         const Sides side = sides(list_[i], plane);
-        both += side.front && side.back;
-        front += side.front && !side.back;
-        back += side.back && !side.front;
-        if (cost_of_cut * both >= enough) return enough;
+        result.both += side.front && side.back;
+        result.front += side.front && !side.back;
+        result.back += side.back && !side.front;
+        if (Score{0, 0, result.both}.cost() >= enough) return {0, 0, result.both};
     }
-    return cost_of_cut * both + (front > back ? front - back : back - front);
+    return result;
 }
 
 /// As sides(), where some vertex was not asked about yet or sets are not kept.
@@ -214,9 +224,8 @@ TreeBuilder::Sides TreeBuilder::ask_sides(std::uint32_t number, std::uint32_t pl
     return result;
 }
 
-int TreeBuilder::ask(std::uint32_t vertex, std::uint32_t plane) const {
+int TreeBuilder::ask(std::uint32_t vertex, const Coefficients& f, const exact::Plane& plane) const {
     // The filter of exact/side.hpp, with its proof, on copies that lie side by side.
-    const Coefficients& f = coefficients_[plane];
     const Vec3& p = places_[vertex];
     const double ax = f.a * p.x, by = f.b * p.y, cz = f.c * p.z;
     const double sum = (ax + by) + (cz + f.d);
@@ -224,7 +233,7 @@ int TreeBuilder::ask(std::uint32_t vertex, std::uint32_t plane) const {
     constexpr double eight_u = 0x1p-50;
     if (std::fabs(sum) > eight_u * magnitude) [[likely]]
         return sum > 0 ? 1 : -1;
-    return static_cast<int>(pool_->side_of(pool_->planes()[planes_[plane]], vertices_[vertex]));
+    return static_cast<int>(pool_->side_of(plane, vertices_[vertex]));
 }
 
 int TreeBuilder::sign(std::uint32_t vertex, std::uint32_t plane) {

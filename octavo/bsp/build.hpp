@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,11 @@
 // that it was made from. So faces round a common vertex, which touch one another's planes in that
 // vertex and in shared edges, are never cut needlessly and hardly ever tested twice: what sorting them cyclically is
 // for in the source, without having to sort.
+//
+// Slivers side by side, as in a fan across a cap that is not quite plane, lie across one another's planes, and n faces
+// make n² pieces. So where the best plane cuts many, or leaves nearly all faces on one side of very many, planes through
+// edges of faces and parallel to an axis are looked at too (separators): those between two of the slivers cut none, and n
+// faces make 2 n nodes. A separator is a plane through lattice points, with coefficients shorter than those of faces.
 //
 // Coplanar faces are recognised by the number of their plane and make one node.
 // Cost: 16 faces of a mesh in about 8 µs. Recursion uses a stack of its own: a chain of 10^5 nodes is fine.
@@ -48,7 +54,9 @@ class TreeBuilder {
     /// Appends the tree of the solid whose boundary in a cell the fragments are; indices of children count from the
     /// first node appended. At least one fragment; all cut to the cell, none overlapping another with area.
     /// Vertices that it makes are released again.
-    void build(FragmentPool& pool, std::span<const Fragment> fragments, std::vector<Node>& nodes);
+    /// `planes` is the pool's table; separators are added to it.
+    void build(FragmentPool& pool, PlaneTable& planes, std::span<const Fragment> fragments,
+               std::vector<Node>& nodes);
 
     std::uint64_t splits() const { return splits_; }  ///< fragments that were cut, so far
 
@@ -69,9 +77,38 @@ class TreeBuilder {
         bool front = false, back = false;
     };
 
+    // Approximations of planes and vertices, side by side: most signs are told by them.
+    struct Coefficients {
+        double a, b, c, d;
+    };
+    static Coefficients coefficients_of(const exact::Plane& plane) {
+        return {static_cast<double>(plane.a()), static_cast<double>(plane.b()),
+                static_cast<double>(plane.c()), plane.d_approximation()};
+    }
+    /// Where pieces lie that are not in a plane.
+    struct Score {
+        std::uint32_t front = 0, back = 0, both = 0;
+        std::uint32_t cost() const {
+            // A cut makes one more face, and so at least one more node; a tree that leans costs depth only.
+            constexpr std::uint32_t cost_of_cut = 4;
+            return cost_of_cut * both + (front > back ? front - back : back - front);
+        }
+    };
+    struct Separator {
+        exact::Plane plane;
+        PlaneTable::Points points;
+    };
+
     void gather(FragmentPool& pool, std::span<const Fragment> fragments);
     std::uint32_t choose(std::uint32_t begin, std::uint32_t end);
-    std::uint32_t score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end, std::uint32_t enough);
+    std::uint32_t random_below(std::uint32_t count);
+    Score score(std::uint32_t plane, std::uint32_t begin, std::uint32_t end, std::uint32_t enough);
+    std::optional<std::uint32_t> choose_separator(std::uint32_t begin, std::uint32_t end,
+                                                  std::uint32_t enough);
+    std::optional<Separator> separator_at(const Piece& piece, const Corner& corner) const;
+    Score score(const Separator& separator, std::uint32_t begin, std::uint32_t end,
+                std::uint32_t enough) const;
+    std::uint32_t add_plane(PlaneId plane);
     Sides sides(std::uint32_t piece, std::uint32_t plane) {
         if (!has_piece_sets()) return ask_sides(piece, plane);
         if (words_ == 1) {
@@ -90,7 +127,10 @@ class TreeBuilder {
         return open ? ask_sides(piece, plane) : Sides{any_front != 0, any_back != 0};
     }
     Sides ask_sides(std::uint32_t piece, std::uint32_t plane);
-    int ask(std::uint32_t vertex, std::uint32_t plane) const;
+    int ask(std::uint32_t vertex, std::uint32_t plane) const {
+        return ask(vertex, coefficients_[plane], pool_->planes()[planes_[plane]]);
+    }
+    int ask(std::uint32_t vertex, const Coefficients& approximation, const exact::Plane& plane) const;
     int sign(std::uint32_t vertex, std::uint32_t plane);
     void cut(std::uint32_t piece, std::uint32_t plane, std::uint32_t& front, std::uint32_t& back);
     std::uint32_t make_vertex(const Piece& piece, std::uint32_t corner, std::uint32_t plane);
@@ -110,15 +150,12 @@ class TreeBuilder {
 
     // Everything below is of the tree at hand; vertices and planes have numbers of their own, from 0.
     FragmentPool* pool_ = nullptr;
+    PlaneTable* table_ = nullptr;
     Numbering plane_number_, vertex_number_;
     std::vector<PlaneId> planes_;
     std::vector<VertexId> vertices_;
-    // Approximations of both, side by side: most signs are told by them.
-    struct Coefficients {
-        double a, b, c, d;
-    };
-    std::vector<Coefficients> coefficients_;
-    std::vector<Vec3> places_;
+    std::vector<Coefficients> coefficients_;  ///< of planes_
+    std::vector<Vec3> places_;                ///< of vertices_
     std::vector<Corner> corners_, back_;
     std::vector<Piece> pieces_;
     std::vector<std::uint32_t> list_, front_, back_list_;

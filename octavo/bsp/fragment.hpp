@@ -108,6 +108,13 @@ class FragmentPool {
         return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
     }
 
+    /// The ends of a side of an input triangle.
+    std::array<exact::Point, 2> ends_of(Bound side) const {
+        const mesh::Triangle& t = triangles_[side.side_index() / 3];
+        const std::uint32_t k = side.side_index() % 3;
+        return {points_[t[k]], points_[t[(k + 1) % 3]]};
+    }
+
     exact::Sign side_of(const exact::Plane& plane, VertexId vertex) const {
         return is_lattice(vertex) ? exact::side_of(plane, points_[vertex])
                                   : exact::side_of(plane, constructed(vertex));

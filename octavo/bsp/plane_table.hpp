@@ -13,7 +13,7 @@
 // is stored without an orientation, with coprime coefficients and a positive first one, so that equal planes are
 // equal bytes and get one number. What lies in it says which way it faces with one bit (Facing).
 //
-// Invariant: every plane goes through three lattice points of the input, which are kept: 27 bits a coordinate say in
+// Invariant: every plane goes through three lattice points, which are kept: 27 bits a coordinate say in
 // a file what coefficients say in 240. No operation ever makes a plane from constructed points, so widths never grow
 // (exact/bit_budget.hpp), however long a chain of operations is.
 // Cost: about 0.4 µs an insertion, most of it divisors; 84 bytes a plane and 8 for the table.

@@ -18,7 +18,7 @@
 // A solid as an octree whose leaves are white, black, or hold a BSP tree of the faces in them: exact, and closed under
 // set operations for ever.
 //
-// Planes of trees are planes of input faces and nothing else; cells are cut out by walls between lattice points. So
+// Planes of trees are those of input faces, and separators through their edges; cells are cut out by walls between lattice points. So
 // every vertex of every result is a point of three such planes, within one bit budget, after any number of
 // operations. Set operations descend both trees at once and work only where both have faces; all other nodes are
 // shared with the operands. A BspOctree is a version: operations return new ones, cheaply, and old ones stay valid.

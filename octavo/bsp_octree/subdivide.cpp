@@ -13,7 +13,9 @@ using bsp::FragmentPool;
 
 /// Octants take the faces that they inherit `futile_growth` times over when subdividing does not pay: walls cut a
 /// patch of compact faces into little more pieces than there were faces, but a bundle of slivers goes whole through
-/// four octants. A cell may then be a leaf although it has `futile_size` times the planes.
+/// four octants. A cell may then be a leaf although it has `futile_size` times the planes, or however many where
+/// nearly all of them are in one octant again: a fan of a thousand slivers would be cut to pieces as short as it is
+/// wide, 10^5 times over.
 constexpr std::size_t futile_growth = 2, futile_size = 8;
 
 /// Under `common_point`, faces at one edge and faces in one plane have no single point and need none.
@@ -107,16 +109,20 @@ bool Workspace::shares_a_point(const octree::Cell& cell) const {
 
 bool Workspace::is_futile(std::span<const Fragment> fragments,
                           const std::array<Fragments, 8>& octants) const {
-    if (options_.stop != StopRule::few_planes || fragments.size() > futile_size * options_.planes)
-        return false;
-    std::size_t total = 0;
-    for (const Fragments& octant : octants) total += octant.size();
-    return total >= futile_growth * fragments.size();
+    if (options_.stop != StopRule::few_planes) return false;
+    std::size_t total = 0, largest = 0;
+    for (const Fragments& octant : octants) {
+        total += octant.size();
+        largest = std::max(largest, octant.size());
+    }
+    const bool is_small = fragments.size() <= futile_size * options_.planes;
+    const bool is_bundle = 4 * largest >= 3 * fragments.size();
+    return total >= futile_growth * fragments.size() && (is_small || is_bundle);
 }
 
 NodeRef Workspace::make_leaf(std::span<const Fragment> fragments) {
     const std::size_t begin = store_.nodes.size();
-    builder_.build(pool_, fragments, store_.nodes);
+    builder_.build(pool_, store_.planes, fragments, store_.nodes);
     return store_.add_leaf(begin);
 }
 

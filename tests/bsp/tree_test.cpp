@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -10,6 +11,7 @@
 #include <octavo/bsp/clip.hpp>
 
 #include "boolean/solids.hpp"
+#include "bsp/sliver_cap.hpp"
 
 namespace octavo::bsp {
 namespace {
@@ -70,7 +72,7 @@ TEST_P(Partitions, TreesKnowInsideOutsideAndOnOfConvexBodies) {
         FragmentPool pool(solid.planes, solid.points, solid.triangles);
         const std::vector<Fragment> faces = solid.fragments(pool);
         std::vector<Node> nodes;
-        builder.build(pool, faces, nodes);
+        builder.build(pool, solid.planes, faces, nodes);
         const Tree tree{nodes}, complement{nodes, true};
         for (int x = -1; x <= 6; ++x)
             for (int y = -1; y <= 6; ++y)
@@ -108,7 +110,7 @@ TEST_P(Partitions, BoundariesComeBackFromTrees) {
         FragmentPool pool(solid.planes, solid.points, solid.triangles);
         const std::vector<Fragment> faces = solid.fragments(pool);
         std::vector<Node> nodes;
-        builder.build(pool, faces, nodes);
+        builder.build(pool, solid.planes, faces, nodes);
         for (const bool complemented : {false, true}) {
             std::vector<Fragment> found;
             extractor.extract(pool, Cell::root(), {nodes, complemented}, found);
@@ -135,7 +137,7 @@ TEST(Tree, OfAConvexBodyHasANodeAPlane) {
     const std::vector<Fragment> faces = solid.fragments(pool);
     TreeBuilder builder;
     std::vector<Node> nodes;
-    builder.build(pool, faces, nodes);
+    builder.build(pool, solid.planes, faces, nodes);
     EXPECT_EQ(nodes.size(), 6U);
     EXPECT_EQ(builder.splits(), 0U);
 }
@@ -161,9 +163,52 @@ TEST(Tree, OfManyFacesRoundOneVertexCutsNone) {
     const std::vector<Fragment> faces = solid.fragments(pool);
     TreeBuilder builder;
     std::vector<Node> nodes;
-    builder.build(pool, faces, nodes);
+    builder.build(pool, solid.planes, faces, nodes);
     EXPECT_EQ(builder.splits(), 0U);
     EXPECT_EQ(nodes.size(), count + 1U);
+}
+
+TEST(Tree, OfSliversSideBySideIsSmall) {
+    // Each of the slivers' planes cuts many others. Trees of faces taken at random know no separators.
+    mesh::Mesh cap = tests::sliver_cap(200, 1.0 / unit);
+    for (Vec3& v : cap.vertices) v = v - Vec3{16, 16, 16};
+    Solid solid(cap);
+    FragmentPool pool(solid.planes, solid.points, solid.triangles);
+    const std::vector<Fragment> faces = solid.fragments(pool);
+    std::vector<Node> nodes, expected;
+    TreeBuilder builder, without({.partition = Partition::random});
+    without.build(pool, solid.planes, faces, expected);
+    builder.build(pool, solid.planes, faces, nodes);
+    EXPECT_GT(without.splits(), faces.size());
+    EXPECT_LT(builder.splits(), faces.size() / 8);
+    EXPECT_LT(nodes.size(), faces.size());
+
+    // Around slivers, near the apex of the fan and far from it.
+    std::mt19937 random(1);
+    int on = 0, in = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const mesh::Triangle& t = solid.triangles[random() % solid.triangles.size()];
+        const exact::Point a = solid.points[t[0]], b = solid.points[t[random() % 3]];
+        const std::int64_t part = i % 4 == 0 ? 0 : random() % 1000;
+        const auto between = [&](std::int32_t from, std::int32_t to) {
+            return static_cast<std::int32_t>(from + (std::int64_t{to} - from) * part / 1000 + random() % 3 -
+                                             1);
+        };
+        const exact::Point p{between(a.x, b.x), between(a.y, b.y), between(a.z, b.z)};
+        const Position position = classify_at({nodes}, solid.planes, p);
+        ASSERT_EQ(position, classify_at({expected}, solid.planes, p)) << "point " << i;
+        on += position == Position::on;
+        in += position == Position::in;
+    }
+    EXPECT_GT(on, 500);
+    EXPECT_GT(in, 500);
+
+    std::vector<Fragment> found;
+    BoundaryExtractor().extract(pool, Cell::root(), {nodes}, found);
+    EXPECT_NEAR(area(pool, found), area(pool, faces), 1e-9 * area(pool, faces));
+    for (const Fragment& fragment : found)
+        ASSERT_TRUE(std::any_of(faces.begin(), faces.end(),
+                                [&](const Fragment& face) { return face.facing == fragment.facing; }));
 }
 
 TEST(Fragments, StayExactHoweverOftenTheyAreCut) {

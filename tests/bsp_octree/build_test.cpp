@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <random>
 
@@ -10,6 +11,8 @@
 #include <octavo/mesh/transform.hpp>
 #include <octavo/query/inside.hpp>
 
+#include "bsp/sliver_cap.hpp"
+#include "bsp_octree/fingerprint.hpp"
 #include "bsp_octree/solid_cases.hpp"
 #include "models.hpp"
 
@@ -76,6 +79,31 @@ TEST(Build, GivesBackWhatItGot) {
             expect_round_trip(mesh, options, "shape " + std::to_string(number) + ", other partition");
         }
     }
+}
+
+TEST(Build, OfSliversSideBySideIsSmall) {
+    const mesh::Mesh cap = tests::sliver_cap(250, 0x1p-20);
+    expect_round_trip(cap, {}, "cap");
+    const Result<Built> built = build(cap);
+    ASSERT_TRUE(built);
+    EXPECT_FALSE(built->report.resolved);
+    EXPECT_LT(built->octree.stats().bsp_nodes, 20 * cap.triangles.size());
+}
+
+TEST(Build, OfSliversSideBySideTakesSetOperations) {
+    std::array<mesh::Mesh, 2> caps{tests::sliver_cap(60, 0x1p-20), tests::sliver_cap(60, 0x1p-20)};
+    for (Vec3& vertex : caps[1].vertices) vertex = vertex + Vec3{0x1p-4, 0x1p-12, 0x1p-20};
+    Box3 bounds = caps[0].bounds();
+    bounds.add(caps[1].bounds());
+    const exact::Lattice lattice = *exact::Lattice::fit(bounds);
+    const Result<Built> first = build(caps[0], lattice), second = build(caps[1], lattice);
+    ASSERT_TRUE(first && second);
+    using boolean::Program;
+    EXPECT_TRUE(tests::fingerprint_of(*first->octree.unite(second->octree)) ==
+                tests::fingerprint_of(caps, Program::union_of(2)));
+    EXPECT_TRUE(tests::fingerprint_of(*first->octree.subtract(second->octree)) ==
+                tests::fingerprint_of(caps, Program::difference(2)));
+    EXPECT_TRUE(first->octree.subtract(first->octree)->is_empty());
 }
 
 TEST(Build, GivesBackTurnedShapes) {
