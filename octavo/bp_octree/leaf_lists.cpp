@@ -20,7 +20,7 @@ class LeafLists {
     Status run() {
         std::vector<mesh::FaceIndex> all(tree_.mesh.triangles.size());
         std::iota(all.begin(), all.end(), 0U);
-        const bool agrees = visit(0, Cell::root(), all);
+        const bool agrees = all_points_in_root() && visit(0, Cell::root(), all);
         if (context_.cancelled()) return Context::cancelled_error();
         if (references_ > limit())
             return Error{ErrorCode::limit, "the leaves of the BP-octree hold too many triangles", {}};
@@ -36,6 +36,17 @@ class LeafLists {
     }
 
   private:
+    /// A triangle beside the root's cell would be in no leaf, and lost when the tree is written.
+    bool all_points_in_root() const {
+        const CellBox root = tree_.frame.box(Cell::root());
+        for (const exact::Point p : tree_.mesh.points)
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto i = static_cast<std::size_t>(axis);
+                if (2 * p[axis] < root.low[i] || 2 * p[axis] > root.high[i]) return false;
+            }
+        return true;
+    }
+
     bool visit(NodeIndex node, const Cell& cell, const std::vector<mesh::FaceIndex>& triangles) {
         switch (tree_.nodes[node]) {
             case Node::white:

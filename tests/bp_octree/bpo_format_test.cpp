@@ -11,6 +11,7 @@
 #include <octavo/bp_octree/build.hpp>
 #include <octavo/bp_octree/certify.hpp>
 #include <octavo/bp_octree/geometry_codec.hpp>
+#include <octavo/bp_octree/leaf_lists.hpp>
 
 #include "bp_octree/sign_bpo.hpp"
 #include "bp_octree/solids.hpp"
@@ -179,6 +180,22 @@ TEST(Bpo, EveryFlippedBitIsNoticed) {
             static_cast<std::uint8_t>(1U << random() % 8);
         ASSERT_FALSE(decode(damaged).has_value()) << i;
     }
+}
+
+TEST(Bpo, ATriangleBesideTheRootIsRefused) {
+    BpOctree tree = sample_tree(3);
+    ASSERT_TRUE(fill_leaf_lists(tree, {}).has_value());
+    // As wide as the root, just above it: it meets none of the octants, though their walls part it.
+    const CellBox root = tree.frame.box(octree::Cell::root());
+    const std::int32_t west = (root.low[0] + 1) / 2, east = root.high[0] / 2, south = (root.low[1] + 1) / 2,
+                       north = root.high[1] / 2, above = (root.high[2] + 1) / 2;
+    const auto first = static_cast<mesh::VertexIndex>(tree.mesh.points.size());
+    tree.mesh.points.insert(tree.mesh.points.end(),
+                            {{west, south, above}, {east, south, above}, {west, north, above}});
+    tree.mesh.triangles.push_back({first, first + 1, first + 2});
+    const Status filled = fill_leaf_lists(tree, {});
+    ASSERT_FALSE(filled.has_value());
+    EXPECT_EQ(filled.error().code, ErrorCode::bad_input);
 }
 
 TEST(Bpo, LiesWithGoodChecksumsNeverCrashAndWhatIsAcceptedCanBeCertified) {
