@@ -31,9 +31,10 @@ void run_tasks(std::size_t count, FunctionRef<void(std::size_t)> body) {
 #else
 
 void within_threads(const Context& context, FunctionRef<void()> body) {
-    if (context.threads == 0) return body();
-    // More threads than the machine runs at a time are slower, and oneTBB warns of them on standard error.
-    tbb::task_arena arena(std::min(context.threads, tbb::info::default_concurrency()));
+    // More threads than the machine runs at a time are slower, and oneTBB warns of them on standard error. As many as it
+    // runs are there anyhow: an arena of their own would begin asleep.
+    if (context.threads == 0 || context.threads >= tbb::info::default_concurrency()) return body();
+    tbb::task_arena arena(context.threads);
     arena.execute(body);
 }
 
