@@ -25,6 +25,16 @@ inline double floor_of(double x) {
 #endif
 }
 
+constexpr bool is_plain(CellIndex::Kind kind) { return kind < CellIndex::Kind::gray; }
+
+/// Arithmetic, because which of the two it is nobody foretells: g++ turns a comparison with black into a branch,
+/// whose mispredictions cost as much as all the rest of an answer.
+constexpr Side side_of(CellIndex::Kind plain) {
+    static_assert(static_cast<int>(CellIndex::Kind::white) == 0 && static_cast<int>(Side::outside) == 1);
+    static_assert(static_cast<int>(CellIndex::Kind::black) == 1 && static_cast<int>(Side::inside) == -1);
+    return static_cast<Side>(1 - 2 * static_cast<int>(plain));
+}
+
 }  // namespace
 
 /// False for points outside the universe, which are outside the solid; NaN and infinity among them.
@@ -62,9 +72,11 @@ Side InsideQuery::test(const LeafRecord& leaf, Vec3 point, const Located& locate
 Side InsideQuery::operator()(Vec3 point) const {
     Located located;
     if (!place(point, located)) return Side::outside;
-    const CellIndex::Entry entry = cells_.find(located.code);
-    if (entry.kind != CellIndex::Kind::gray)
-        return entry.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
+    const CellIndex::Kind kind = cells_.kind_of(located.code);
+    if (is_plain(kind)) [[likely]]
+        return side_of(kind);
+    const CellIndex::Entry entry = cells_.find_below(cells_.top(located.code), located.code);
+    if (is_plain(entry.kind)) return side_of(entry.kind);
     return test(LeafRecord::at(cells_.record(entry)), point, located);
 }
 
@@ -73,18 +85,16 @@ InsideQuery::Begun InsideQuery::begin(Vec3 point) const {
     begun.point = point;
     if (!place(point, begun.located)) return begun;
     begun.kind = cells_.kind_of(begun.located.code);
-    if (begun.kind < CellIndex::Kind::gray) return begun;
+    if (is_plain(begun.kind)) return begun;
     begun.entry = cells_.top(begun.located.code);
     if (begun.entry.kind == CellIndex::Kind::brick) cells_.prefetch_brick(begun.entry);
     return begun;
 }
 
 Side InsideQuery::finish(const Begun& begun) const {
-    if (begun.kind < CellIndex::Kind::gray)
-        return begun.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
+    if (is_plain(begun.kind)) return side_of(begun.kind);
     const CellIndex::Entry entry = cells_.find_below(begun.entry, begun.located.code);
-    if (entry.kind != CellIndex::Kind::gray)
-        return entry.kind == CellIndex::Kind::black ? Side::inside : Side::outside;
+    if (is_plain(entry.kind)) return side_of(entry.kind);
     return test(LeafRecord::at(cells_.record(entry)), begun.point, begun.located);
 }
 
@@ -98,12 +108,11 @@ void InsideQuery::answer_block(std::span<const Vec3> points, std::span<Side> sid
     for (std::size_t i = 0; i < points.size(); ++i) {
         sides[i] = Side::outside;
         if (!place(points[i], located[i])) continue;
-        // Which kind it is nobody foretells, so there are no branches.
         const CellIndex::Kind kind = cells_.kind_of(located[i].code);
-        sides[i] = kind == CellIndex::Kind::black ? Side::inside : Side::outside;
+        sides[i] = side_of(kind);
         cells_.prefetch_top(located[i].code);
         active[under_way] = static_cast<std::uint8_t>(i);
-        under_way += kind >= CellIndex::Kind::gray;
+        under_way += !is_plain(kind);
     }
     // The first round looks into the table, the others into bricks.
     for (int level = cells_.top_level() - CellIndex::brick_levels; under_way > 0;
@@ -124,7 +133,7 @@ void InsideQuery::answer_block(std::span<const Vec3> points, std::span<Side> sid
                     in_gray[gray_count++] = i;
                     break;
                 default:
-                    sides[i] = entries[i].kind == CellIndex::Kind::black ? Side::inside : Side::outside;
+                    sides[i] = side_of(entries[i].kind);
             }
         }
         under_way = still;
