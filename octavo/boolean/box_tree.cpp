@@ -18,19 +18,8 @@ constexpr std::size_t grain = 1 << 14;
 
 using Keyed = BoxTree::Keyed;
 
-struct Box {
-    exact::Point low, high;
-};
-
-Box box_of(const Soup& soup, std::uint32_t facet) {
-    const mesh::Triangle& corners = soup.facets[facet];
-    const exact::Point a = soup.points[corners[0]], b = soup.points[corners[1]], c = soup.points[corners[2]];
-    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
-}
-
 /// Twice the centre of a box, 27 bits a coordinate.
-std::array<std::uint32_t, 3> doubled_centre(const Box& box) {
+std::array<std::uint32_t, 3> doubled_centre(const FacetBox& box) {
     return {static_cast<std::uint32_t>(box.low.x + box.high.x),
             static_cast<std::uint32_t>(box.low.y + box.high.y),
             static_cast<std::uint32_t>(box.low.z + box.high.z)};
@@ -72,7 +61,8 @@ void sort_by_key(UninitialisedVector<Keyed>& keyed, const Context& context) {
 
 /// Sorts the runs of equal keys that begin in a chunk by the bits that the keys have dropped; runs are short but for
 /// clustered scenes.
-void sort_runs(const Soup& soup, UninitialisedVector<Keyed>& keyed, std::size_t begin, std::size_t end) {
+void sort_runs(const Soup& soup, std::span<const exact::Point> places, UninitialisedVector<Keyed>& keyed,
+               std::size_t begin, std::size_t end) {
     struct Fine {
         std::uint64_t key;
         std::uint32_t facet;
@@ -84,7 +74,7 @@ void sort_runs(const Soup& soup, UninitialisedVector<Keyed>& keyed, std::size_t 
         if (after - i <= BoxTree::width) continue;
         run.clear();
         for (std::size_t k = i; k < after; ++k) {
-            const auto [x, y, z] = doubled_centre(box_of(soup, keyed[k].facet));
+            const auto [x, y, z] = doubled_centre({soup.facets[keyed[k].facet], places});
             constexpr std::uint32_t mask = (1u << drop_bits) - 1;
             run.push_back({octree::interleave(x & mask, y & mask, z & mask), keyed[k].facet});
         }
@@ -93,58 +83,79 @@ void sort_runs(const Soup& soup, UninitialisedVector<Keyed>& keyed, std::size_t 
     }
 }
 
-void set_empty(BoxNode& node) {
-    for (int axis = 0; axis < 3; ++axis)
+using Margin = std::array<std::int32_t, 3>;
+
+void set_box(BoxNode& node, std::size_t lane, const FacetBox& box, const Margin& margin) {
+    for (int axis = 0; axis < 3; ++axis) {
+        node.low[axis][lane] = box.low[axis] - margin[static_cast<std::size_t>(axis)];
+        node.high[axis][lane] = box.high[axis] + margin[static_cast<std::size_t>(axis)];
+    }
+}
+
+/// All eight, of the facets where they are.
+void set_boxes(BoxNode& node, const FacetBlock& block, const Margin& margin) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
         for (int lane = 0; lane < BoxNode::width; ++lane) {
-            node.low[axis][lane] = std::numeric_limits<std::int32_t>::max();
-            node.high[axis][lane] = std::numeric_limits<std::int32_t>::min();
+            const std::int32_t a = block.point[0][axis][lane], b = block.point[1][axis][lane],
+                               c = block.point[2][axis][lane];
+            node.low[axis][lane] = std::min(a, std::min(b, c)) - margin[axis];
+            node.high[axis][lane] = std::max(a, std::max(b, c)) + margin[axis];
         }
+}
+
+void set_empty(BoxNode& node, int lane) {
+    for (int axis = 0; axis < 3; ++axis) {
+        node.low[axis][lane] = std::numeric_limits<std::int32_t>::max();
+        node.high[axis][lane] = std::numeric_limits<std::int32_t>::min();
+    }
 }
 
 }  // namespace
 
-std::uint32_t BoxTree::key_of(exact::Point low, exact::Point high) {
-    const auto [x, y, z] = doubled_centre({low, high});
+std::uint32_t BoxTree::key_of(const FacetBox& box) {
+    const auto [x, y, z] = doubled_centre(box);
     return static_cast<std::uint32_t>(octree::interleave(x >> drop_bits, y >> drop_bits, z >> drop_bits));
 }
 
 BoxTree::BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin,
-                 const Context& context, std::span<const char> spread) {
+                 const Context& context) {
     UninitialisedVector<Keyed> keyed(facets.size());
     parallel_chunks(context, keyed.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Box box = box_of(soup, facets[i]);
-            keyed[i] = {key_of(box.low, box.high), facets[i]};
+            keyed[i] = {key_of({soup.facets[facets[i]], soup.points}), facets[i]};
         }
     });
-    *this = BoxTree(soup, std::move(keyed), margin, context, spread);
+    *this = BoxTree(soup, std::move(keyed), {soup.points, {margin, margin, margin}}, context);
 }
 
-BoxTree::BoxTree(const Soup& soup, UninitialisedVector<Keyed> keyed, std::int32_t margin,
-                 const Context& context, std::span<const char> spread) {
+BoxTree::BoxTree(const Soup& soup, UninitialisedVector<Keyed> keyed, const Room& room, const Context& context,
+                 std::span<const char> spread) {
     if (keyed.empty()) return;
     sort_by_key(keyed, context);
-    parallel_chunks(context, keyed.size(), grain,
-                    [&](std::size_t begin, std::size_t end) { sort_runs(soup, keyed, begin, end); });
+    parallel_chunks(context, keyed.size(), grain, [&](std::size_t begin, std::size_t end) {
+        sort_runs(soup, room.places, keyed, begin, end);
+    });
     facets_.resize(keyed.size());
     parallel_chunks(context, keyed.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) facets_[i] = keyed[i].facet;
     });
     keyed = {};
-    fill_blocks(soup, margin, spread, context);
+    fill_blocks(soup, room, spread, context);
     build_levels(context);
 }
 
-void BoxTree::fill_blocks(const Soup& soup, std::int32_t margin, std::span<const char> spread,
+void BoxTree::fill_blocks(const Soup& soup, const Room& room, std::span<const char> spread,
                           const Context& context) {
+    const bool is_upright = room.places.data() == soup.points.data();
     const std::size_t count = (facets_.size() + width - 1) / width;
     blocks_.resize(count);
     levels_.emplace_back(count);
     parallel_chunks(context, count, grain / width, [&](std::size_t begin, std::size_t end) {
         for (std::size_t number = begin; number < end; ++number) {
             FacetBlock& block = blocks_[number];
+            BoxNode& node = levels_[0][number];
             for (std::size_t lane = 0; lane < width; ++lane) {
-                // What is left of the last block repeats its first facet; its boxes are empty.
+                // What is left of the last block repeats its last facet; its boxes are empty.
                 const std::size_t position = std::min(number * width + lane, facets_.size() - 1);
                 const mesh::Triangle& corners = soup.facets[facets_[position]];
                 for (int corner = 0; corner < 3; ++corner) {
@@ -156,29 +167,20 @@ void BoxTree::fill_blocks(const Soup& soup, std::int32_t margin, std::span<const
                     block.point[corner][1][lane] = point.y;
                     block.point[corner][2][lane] = point.z;
                 }
+                if (!is_upright) set_box(node, lane, {corners, room.places}, room.margin);
             }
-            BoxNode& node = levels_[0][number];
-            for (int axis = 0; axis < 3; ++axis)
-                for (int lane = 0; lane < width; ++lane) {
-                    const std::int32_t a = block.point[0][axis][lane], b = block.point[1][axis][lane],
-                                       c = block.point[2][axis][lane];
-                    node.low[axis][lane] = std::min(a, std::min(b, c)) - margin;
-                    node.high[axis][lane] = std::max(a, std::max(b, c)) + margin;
-                }
+            if (is_upright) set_boxes(node, block, room.margin);
         }
     });
     for (std::size_t lane = facets_.size() - (count - 1) * width; lane < width; ++lane)
-        for (int axis = 0; axis < 3; ++axis) {
-            levels_[0].back().low[axis][lane] = std::numeric_limits<std::int32_t>::max();
-            levels_[0].back().high[axis][lane] = std::numeric_limits<std::int32_t>::min();
-        }
+        set_empty(levels_[0].back(), static_cast<int>(lane));
 }
 
 void BoxTree::build_levels(const Context& context) {
     while (levels_.back().size() > 1) {
         const UninitialisedVector<BoxNode>& children = levels_.back();
         UninitialisedVector<BoxNode> level((children.size() + width - 1) / width);
-        set_empty(level.back());
+        for (int lane = 0; lane < width; ++lane) set_empty(level.back(), lane);
         parallel_chunks(context, level.size(), grain / width, [&](std::size_t begin, std::size_t end) {
             for (std::size_t child = begin * width; child < std::min(end * width, children.size()); ++child)
                 for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -27,6 +29,16 @@ struct alignas(32) BoxNode {
     std::int32_t low[3][width], high[3][width];
 };
 
+/// About a facet.
+struct FacetBox {
+    FacetBox(const mesh::Triangle& corners, std::span<const exact::Point> places) {
+        const exact::Point a = places[corners[0]], b = places[corners[1]], c = places[corners[2]];
+        low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})};
+        high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
+    }
+    exact::Point low, high;
+};
+
 /// Bit k: box k of `node` meets box `lane` of `other`.
 unsigned meeting(const BoxNode& node, const BoxNode& other, int lane);
 
@@ -38,16 +50,19 @@ class BoxTree {
     struct Keyed {
         std::uint32_t key, facet;
     };
-    /// Of a facet with the box from `low` to `high`.
-    static std::uint32_t key_of(exact::Point low, exact::Point high);
+    static std::uint32_t key_of(const FacetBox& box);
+
+    /// Where boxes are: made of the soup's points, or of others for these, and larger by the margin along each axis.
+    struct Room {
+        std::span<const exact::Point> places;
+        std::array<std::int32_t, 3> margin;
+    };
 
     BoxTree() = default;
-    /// Of the facets listed; boxes are larger by `margin` on every side. `spread` tells of vertices what blocks note of
-    /// them; none are when it is empty.
-    BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin, const Context& context,
-            std::span<const char> spread = {});
-    /// Of facets whose keys are known.
-    BoxTree(const Soup& soup, UninitialisedVector<Keyed> keyed, std::int32_t margin, const Context& context,
+    /// Of the facets listed; boxes are larger by `margin` on every side.
+    BoxTree(const Soup& soup, std::vector<std::uint32_t> facets, std::int32_t margin, const Context& context);
+    /// Of facets whose keys are known. `spread` tells of vertices what blocks note of them; none are when it is empty.
+    BoxTree(const Soup& soup, UninitialisedVector<Keyed> keyed, const Room& room, const Context& context,
             std::span<const char> spread = {});
 
     /// Calls `visit(facet)` for the facets whose boxes meet the closed box from `low` to `high`.
@@ -82,7 +97,7 @@ class BoxTree {
                 for_each_meeting(probe, level - 1, child, visit);
         }
     }
-    void fill_blocks(const Soup& soup, std::int32_t margin, std::span<const char> spread,
+    void fill_blocks(const Soup& soup, const Room& room, std::span<const char> spread,
                      const Context& context);
     void build_levels(const Context& context);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -42,6 +43,27 @@ FacetPrism::FacetPrism(const FacetBlock& block, int lane, double reach) {
         plane.normal[j] = turn * (from[i] - to[i]);
         set(plane, from);
     }
+}
+
+FacetPrism FacetPrism::turned(const TurnedFrame& frame) const {
+    FacetPrism prism = *this;
+    for (Plane& plane : prism.planes_) {
+        // A point x is the sum of (place + origin) / stretch along the axes. Boxes hold their facets' places but for less
+        // than a unit of rounding down. The axes are off by some 2^-52 of their lengths.
+        double normal[3], offset = plane.offset, unit = 0;
+        for (int k = 0; k < 3; ++k) {
+            const double along = plane.normal[0] * frame.axis[k][0] + plane.normal[1] * frame.axis[k][1] +
+                                 plane.normal[2] * frame.axis[k][2];
+            normal[k] = along / frame.stretch[k];
+            offset += normal[k] * frame.origin[k];
+            unit += std::fabs(normal[k]);
+        }
+        plane.bound += unit + 0x1p-21 * (std::fabs(plane.normal[0]) + std::fabs(plane.normal[1]) +
+                                         std::fabs(plane.normal[2]));
+        std::copy(normal, normal + 3, plane.normal);
+        plane.offset = offset;
+    }
+    return prism;
 }
 
 unsigned FacetPrism::meeting(const BoxNode& node, unsigned candidates) const {

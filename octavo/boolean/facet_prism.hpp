@@ -2,6 +2,7 @@
 #pragma once
 
 #include <octavo/boolean/box_tree.hpp>
+#include <octavo/boolean/turned_frame.hpp>
 
 // The least set of boxes that a long facet may meet: a facet cut to its plane and to the three planes through its
 // edges along its dominant axis, tested against eight boxes at once.
@@ -17,6 +18,9 @@ class FacetPrism {
   public:
     /// Boxes count as met when they are within `reach`.
     FacetPrism(const FacetBlock& block, int lane, double reach = 0);
+
+    /// For boxes in these coordinates.
+    FacetPrism turned(const TurnedFrame& frame) const;
 
     /// Those of the boxes `candidates` of `node` (bit k is lane k) that the facet may meet.
     unsigned meeting(const BoxNode& node, unsigned candidates) const;

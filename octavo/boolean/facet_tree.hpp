@@ -6,20 +6,18 @@
 #include <vector>
 
 #include <octavo/boolean/box_tree.hpp>
-#include <octavo/boolean/facet_prism.hpp>
+#include <octavo/boolean/long_facets.hpp>
 
 // Finds the pairs of facets of a soup that may meet, and the facets on a ray.
 //
 // Facets of ordinary size are in one tree of boxes; all pairs of boxes that meet are found in one descent of the
 // tree against itself. *Long* facets, those whose box is much larger than the facets of an even mesh would be, are in
 // a tree of their own: among the others they would blow up the boxes of whole nodes, and with them the number
-// of pairs. Each long facet descends both trees by itself, past the boxes that its plane and edges miss. So a fan of
+// of pairs. Each long facet descends both trees by itself (long_facets.hpp). Bundles of slivers do so in trees of their own
+// of what is about them, in coordinates along and across the bundle (turned_frame.hpp). So a fan of
 // slivers costs what the slivers come near, not the product of all that their boxes overlap.
 //
 // What is left of pairs whose boxes meet goes through facet_filter.hpp.
-// Tried and lost: to cut long facets into the cells that they cross. Slivers of one fan are neighbours in every cell
-// along their length, and each cell pays for them again. And slabs about the long facets below each box, along their mean
-// normal: 3 % of the time of the worst pair of fans, which a page of code is too much for.
 
 namespace octavo::boolean {
 
@@ -35,6 +33,7 @@ class FacetTree {
     /// facets at the positions [first, second).
     struct Task {
         std::uint32_t level, first, second;
+        std::uint32_t bundle = no_index;  ///< that long facets are of, if any
     };
     static constexpr std::uint32_t long_facets = no_index;  ///< as a task's level
 
@@ -50,10 +49,12 @@ class FacetTree {
             pairs(task.level, task.first, task.second, planes, visit);
             return;
         }
-        for (std::uint32_t position = task.first; position < task.second; ++position) {
-            const LongFacet facet(long_, position, reach_);
-            meet_long(facet, ordinary_, 0, visit);
-            meet_long(facet, long_, position + 1, visit);
+        if (task.bundle == no_index) {
+            LongFacets(long_, nullptr, reach_).for_each_pair(task.first, task.second, ordinary_, visit);
+        } else {
+            const BundleTrees& bundle = bundles_[task.bundle];
+            LongFacets(bundle.own, &bundle.frame, reach_)
+                .for_each_pair(task.first, task.second, bundle.others, visit);
         }
     }
 
@@ -61,41 +62,34 @@ class FacetTree {
     void forget_pairs() {
         ordinary_.forget_blocks();
         long_.forget_blocks();
+        bundles_ = {};
     }
 
     /// Calls `visit(facet)` for each facet whose box meets a ray that starts in the box from `low` to `high` and runs
     /// along `axis`, in the direction of `sign`.
     template <class Visit>
     void for_each_on_ray(exact::Point low, exact::Point high, int axis, int sign, const Visit& visit) const {
-        for (const BoxTree* tree : {&ordinary_, &long_})
+        for (const BoxTree* tree : {&ordinary_, &long_, &bundled_})
             if (!tree->empty()) ray(*tree, tree->top(), 0, {low, high}, axis, sign, visit);
     }
 
   private:
     static constexpr int width = BoxTree::width;
 
+    /// In the bundle's frame: its facets, and all others in its box but those in bundles before it.
+    struct BundleTrees {
+        TurnedFrame frame;
+        BoxTree own, others;
+    };
+
+    /// `is_left` tells of the facets that are in no bundle yet.
+    void add_bundle(const Soup& soup, const Bundle& bundle, std::vector<char>& is_left,
+                    const Context& context, std::span<const char> spread);
+
     /// The planes of the block that was compared last: blocks come with several partners in a row.
     struct CurrentPlanes {
         std::uint32_t block = no_index;
         FacetPlanes planes;
-    };
-
-    struct LongFacet {
-        LongFacet(const BoxTree& tree, std::uint32_t position, double reach)
-            : facet(tree.facet(position)),
-              lane(static_cast<int>(position % width)),
-              block(tree.block(position / width)),
-              box(tree.node(0, position / width)),
-              has_spread_corner(block.has_spread_corner(lane)),
-              planes(block, reach),
-              prism(block, lane, reach) {}
-        std::uint32_t facet;
-        int lane;
-        const FacetBlock& block;
-        const BoxNode& box;
-        bool has_spread_corner;
-        FacetPlanes planes;
-        FacetPrism prism;
     };
 
     template <class Visit>
@@ -132,35 +126,6 @@ class FacetTree {
         }
     }
 
-    /// With the facets of `tree` from position `begin` on.
-    template <class Visit>
-    void meet_long(const LongFacet& facet, const BoxTree& tree, std::size_t begin, const Visit& visit) const {
-        if (!tree.empty()) meet_long(facet, tree, begin, tree.top(), 0, visit);
-    }
-    template <class Visit>
-    void meet_long(const LongFacet& facet, const BoxTree& tree, std::size_t begin, std::uint32_t level,
-                   std::uint32_t number, const Visit& visit) const {
-        const BoxNode& node = tree.node(level, number);
-        unsigned hits = meeting(node, facet.box, facet.lane);
-        if (level == 0 && begin > number * width) hits &= ~0u << (begin - number * width);
-        if (level > 0) {
-            // Boxes of other slivers, and of larger nodes, are so large that the planes hardly ever miss them.
-            if (level == 1 && &tree == &ordinary_) hits = facet.prism.meeting(node, hits);
-        } else if (hits) {
-            if (facet.has_spread_corner) hits &= ~sharing_spread(facet.block, facet.lane, tree.block(number));
-            if (hits) hits = across_plane(facet.block, facet.planes, facet.lane, tree.block(number), hits);
-            if (hits) hits = facet.prism.meeting(tree.block(number), hits);
-            if (hits) hits = not_parted(facet.block, facet.lane, tree.block(number), hits, reach_);
-        }
-        for (; hits; hits &= hits - 1) {
-            const std::uint32_t child = number * width + static_cast<std::uint32_t>(std::countr_zero(hits));
-            if (level == 0)
-                visit(facet.facet, tree.facet(child));
-            else if ((std::size_t{child} + 1) << (3 * level) > begin)
-                meet_long(facet, tree, begin, level - 1, child, visit);
-        }
-    }
-
     struct Start {
         exact::Point low, high;
     };
@@ -184,6 +149,8 @@ class FacetTree {
 
     double reach_ = 0;
     BoxTree ordinary_, long_;
+    std::vector<BundleTrees> bundles_;
+    BoxTree bundled_;  ///< upright boxes of the facets in bundles
 };
 
 }  // namespace octavo::boolean

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -96,6 +98,9 @@ bool ends_in(const Facet& first, const Facet& second) {
 }
 
 bool meet(const Facet& first, const Facet& second) {
+    int sides = 0;
+    for (const Point corner : second.at) sides += volume_sign(first.at[0], first.at[1], first.at[2], corner);
+    if (std::abs(sides) == 3) return false;
     return ends_in(first, second) || ends_in(second, first);
 }
 
@@ -224,6 +229,125 @@ TEST(FacetTree, FindsAllPairsThatMeetAmongSliversAndSmallFacets) {
     }
 }
 
+/// Fans of slivers, six side by side along a skew line and one along another, and small facets about these.
+Soup bundled_fans(std::mt19937& random) {
+    const auto number = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    Soup soup;
+    const auto add_point = [&](Vec3 at) {
+        const auto inside = [](double c) {
+            return static_cast<std::int32_t>(std::clamp(c, 1.0, exact::universe_side - 1.0));
+        };
+        soup.points.push_back({inside(at.x), inside(at.y), inside(at.z)});
+        return static_cast<std::uint32_t>(soup.points.size() - 1);
+    };
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const auto n = cross(minus(soup.points[b], soup.points[a]), minus(soup.points[c], soup.points[a]));
+        if (n[0] != 0 || n[1] != 0 || n[2] != 0) soup.facets.push_back({a, b, c});
+    };
+    constexpr double side = exact::universe_side;
+    const double thickness = std::ldexp(1.0, std::uniform_int_distribution<int>(4, 16)(random));
+    const auto aside = [&] {
+        return Vec3{number(-thickness, thickness), number(-thickness, thickness),
+                    number(-thickness, thickness)};
+    };
+    for (int fan = 0; fan < 7; ++fan) {
+        const Vec3 along = fan == 6 ? Vec3{.2, .3, -.5} : Vec3{-.3, .5, .1};
+        const Vec3 middle = (side / 2) * Vec3{1, 1, 1} + 2.0 * aside();
+        const double turned = fan % 2 ? -.6 : .6;
+        const std::uint32_t hub = add_point(middle + (turned * side) * along + aside());
+        constexpr int slivers = 100;
+        const Vec3 from = aside(), to = aside();
+        std::uint32_t last = no_index;
+        for (int k = 0; k <= slivers; ++k) {
+            const double t = k / double(slivers);
+            const std::uint32_t next =
+                add_point(middle - (turned * t * side) * along + (1 - t) * from + t * to);
+            if (last != no_index) add(hub, last, next);
+            last = next;
+        }
+        for (int k = 0; k < 20; ++k) {
+            const Vec3 at = middle + (number(-.6, .6) * side) * along + aside();
+            add(add_point(at), add_point(at + aside()), add_point(at + aside()));
+        }
+    }
+    soup.transition.assign(soup.facets.size(), 0);
+    return soup;
+}
+
+Facet facet_of(const Soup& soup, std::uint32_t number) {
+    const mesh::Triangle& t = soup.facets[number];
+    return {{t[0], t[1], t[2]}, {soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]}};
+}
+
+TEST(FacetTree, FindsAllPairsThatMeetOrComeNearInBundlesOfSlivers) {
+    std::size_t met = 0, near = 0, bundles = 0;
+    for (int run = 0; run < 6 * tests::effort(); ++run) {
+        std::mt19937 random(static_cast<unsigned>(run));
+        const Soup soup = bundled_fans(random);
+        const int reach = run % 3 == 0 ? 0 : run % 3 == 1 ? 2 : 100;
+        std::vector<std::uint32_t> all(soup.facets.size());
+        std::iota(all.begin(), all.end(), 0U);
+        bundles += bundles_among(soup, all, reach).size();
+        const FacetTree tree(soup, {}, reach);
+        std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+        for (const FacetTree::Task& task : tree.pair_tasks(16))
+            tree.for_each_pair(task, [&](std::uint32_t a, std::uint32_t b) {
+                ASSERT_TRUE(found.insert(std::minmax(a, b)).second) << "a pair comes twice";
+            });
+        const auto number = [&] { return std::uniform_int_distribution<int>(-reach, reach)(random); };
+        for (std::uint32_t a = 0; a < soup.facets.size(); ++a)
+            for (std::uint32_t b = a + 1; b < soup.facets.size(); ++b) {
+                const Facet first = facet_of(soup, a);
+                Facet second = facet_of(soup, b);
+                if (meet(first, second)) {
+                    ++met;
+                    ASSERT_TRUE(found.count({a, b})) << "run " << run << ", facets " << a << " and " << b;
+                }
+                const bool share = std::any_of(first.id.begin(), first.id.end(),
+                                               [&](std::uint32_t id) { return is_corner(second, id); });
+                if (reach == 0 || share) continue;
+                const int x = number(), y = number(), z = number();
+                for (Point& corner : second.at) corner = {corner.x + x, corner.y + y, corner.z + z};
+                if (meet(first, second)) {
+                    ++near;
+                    ASSERT_TRUE(found.count({a, b})) << "run " << run << ", facets " << a << " and " << b;
+                }
+            }
+    }
+    EXPECT_GT(met, 1000U);
+    EXPECT_GT(near, 1000U);
+    EXPECT_GE(bundles, 4U);
+}
+
+TEST(FacetTree, FindsFacetsOfBundlesOnRays) {
+    std::mt19937 random(7);
+    const Soup soup = bundled_fans(random);
+    const FacetTree tree(soup);
+    for (int run = 0; run < 300; ++run) {
+        const auto number = [&] {
+            return std::uniform_int_distribution<int>(0, exact::universe_side)(random);
+        };
+        const mesh::Triangle& t = soup.facets[random() % soup.facets.size()];
+        const Point start = run % 2 ? soup.points[t[0]] : Point{number(), number(), number()};
+        const int axis = run % 3, sign = run % 2 ? 1 : -1, i = (axis + 1) % 3, j = (axis + 2) % 3;
+        std::set<std::uint32_t> found, expected;
+        tree.for_each_on_ray(start, start, axis, sign, [&](std::uint32_t facet) {
+            ASSERT_TRUE(found.insert(facet).second) << "a facet comes twice";
+        });
+        for (std::uint32_t facet = 0; facet < soup.facets.size(); ++facet) {
+            const Facet f = facet_of(soup, facet);
+            const auto low = [&](int k) { return std::min({f.at[0][k], f.at[1][k], f.at[2][k]}); };
+            const auto high = [&](int k) { return std::max({f.at[0][k], f.at[1][k], f.at[2][k]}); };
+            if (low(i) <= start[i] && start[i] <= high(i) && low(j) <= start[j] && start[j] <= high(j) &&
+                (sign > 0 ? high(axis) >= start[axis] : low(axis) <= start[axis]))
+                expected.insert(facet);
+        }
+        EXPECT_EQ(found, expected);
+    }
+}
+
 /// A fan about point 0. Its ring goes about an axis once, seen along it, or twice, or anyhow; up and down as it likes.
 Soup random_star(std::mt19937& random) {
     const auto number = [&](double low, double high) {
@@ -255,12 +379,6 @@ Soup random_star(std::mt19937& random) {
     }
     soup.transition.assign(soup.facets.size(), 0);
     return soup;
-}
-
-Facet facet_of(const Soup& soup, std::uint32_t facet) {
-    Facet f;
-    for (std::size_t k = 0; k < 3; ++k) f.id[k] = soup.facets[facet][k], f.at[k] = soup.points[f.id[k]];
-    return f;
 }
 
 /// Neighbours by nothing but the star's vertex stay apart as long as no other corner moves farther than the reach.
