@@ -294,10 +294,15 @@ void append(const Soup& soup, std::vector<Pieces>& all, PointTable& points, Comp
     std::vector<std::vector<PointId>> point_of_new(all.size());
     std::vector<std::vector<TransitionId>> transition_of(all.size());
     std::vector<std::size_t> begin{0};
+    std::vector<std::span<const exact::TriplePoint>> lists;
+    for (const Pieces& pieces : all) lists.push_back(pieces.new_points);
+    const std::vector<std::vector<PointTable::Place>> places =
+        points.places<exact::TriplePoint>(lists, context);
+    if (context.cancelled()) return;
     for (std::size_t part = 0; part < all.size(); ++part) {
         Pieces& pieces = all[part];
-        for (const exact::TriplePoint& point : pieces.new_points)
-            point_of_new[part].push_back(points.add(point));
+        for (std::size_t i = 0; i < pieces.new_points.size(); ++i)
+            point_of_new[part].push_back(points.add(pieces.new_points[i], places[part][i]));
         pieces.new_points = {};
         for (const Pieces::Cover& cover : pieces.covers)
             transition_of[part].push_back(cover.shared ? complex.transitions.intern(cover.deltas)

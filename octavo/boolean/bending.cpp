@@ -152,6 +152,7 @@ class Bending {
         for (const NearContacts::Crossing& crossing : near_.crossings) {
             Chain &first = *chain(crossing.first), &second = *chain(crossing.second);
             if (!is_active(first.facets[0]) || meet_in_vertex(first, second)) continue;
+            known.prepare(old);
             std::uint32_t vertex = known.find(crossing.middle, old);
             if (vertex == no_index) vertex = added.find(crossing.middle, soup_.points);
             if (vertex == no_index) {

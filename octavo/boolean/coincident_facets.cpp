@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <bit>
 
-#include <octavo/base/parallel.hpp>
+#include <octavo/base/parallel_sort.hpp>
 #include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/coincident_facets.hpp>
 
@@ -111,7 +111,7 @@ std::vector<Coincidence> find_coincident(const Soup& soup, const Context& contex
     });
     std::vector<Coincidence> all;
     for (const std::vector<Coincidence>& part : found) all.insert(all.end(), part.begin(), part.end());
-    std::sort(all.begin(), all.end());
+    parallel_sort(context, all);
     return all;
 }
 

@@ -211,7 +211,8 @@ void meet(const Face& first, const Face& second, Found& found) {
 }
 
 /// Gives ids to the points of a task and writes its cuts.
-void name_points(const Found& found, const Soup& soup, PointTable& points, Contacts& contacts) {
+void name_points(const Found& found, std::span<const PointTable::Place> places, const Soup& soup,
+                 PointTable& points, Contacts& contacts) {
     std::size_t next = 0;
     // A corner, or an edge, of a face is no cut in it.
     const auto add = [&](std::uint32_t id, std::uint32_t other, PointId from, PointId to) {
@@ -224,8 +225,8 @@ void name_points(const Found& found, const Soup& soup, PointTable& points, Conta
     for (const Crossing& crossing : found.crossings) {
         PointId ends[2] = {no_index, no_index};
         for (std::uint32_t i = 0; i < crossing.count; ++i) {
-            const PointId id =
-                crossing.ends[i] == edge_point ? points.add(found.edge_points[next++]) : crossing.ends[i];
+            PointId id = crossing.ends[i];
+            if (id == edge_point) id = points.add(found.edge_points[next], places[next]), ++next;
             if (ends[0] == no_index || ends[0] == id)
                 ends[0] = id;
             else if (ends[1] == no_index || ends[1] == id)
@@ -309,9 +310,14 @@ Contacts find_contacts(const Soup& soup, const FacetTree& tree, PointTable& poin
         edge_points += part.edge_points.size(), cuts += 2 * part.crossings.size() + part.touches.size();
     points.reserve(edge_points / 2);  // an edge is that of two faces
     contacts.cuts.reserve(cuts);
-    for (Found& part : found) {
-        name_points(part, soup, points, contacts);
-        part = {};
+    std::vector<std::span<const exact::EdgePoint>> lists;
+    for (const Found& part : found) lists.push_back(part.edge_points);
+    std::vector<std::vector<PointTable::Place>> places = points.places<exact::EdgePoint>(lists, context);
+    if (context.cancelled()) return contacts;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        name_points(found[i], places[i], soup, points, contacts);
+        found[i] = {};
+        places[i] = {};
     }
     return contacts;
 }

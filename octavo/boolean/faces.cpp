@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include <octavo/base/parallel.hpp>
+#include <octavo/base/parallel_sort.hpp>
 #include <octavo/boolean/faces.hpp>
 #include <octavo/exact/orient.hpp>
 #include <octavo/exact/plane.hpp>
@@ -38,7 +38,8 @@ bool is_convex(const Soup& soup, const mesh::Triangle& first, std::uint32_t k, s
 }
 
 /// Edges between two of the facets, which run along them in opposite directions and make a convex quadrilateral.
-std::vector<FlatEdge> find_flat_edges(const Soup& soup, const std::vector<std::uint32_t>& facets) {
+std::vector<FlatEdge> find_flat_edges(const Soup& soup, const std::vector<std::uint32_t>& facets,
+                                      const Context& context) {
     struct Side {
         std::uint32_t low, high, facet, k;
         bool operator<(const Side& other) const {
@@ -52,7 +53,7 @@ std::vector<FlatEdge> find_flat_edges(const Soup& soup, const std::vector<std::u
             const std::uint32_t from = soup.facets[facet][k], to = soup.facets[facet][(k + 1) % 3];
             sides.push_back({std::min(from, to), std::max(from, to), facet, k});
         }
-    std::sort(sides.begin(), sides.end());
+    parallel_sort(context, sides);
     std::vector<FlatEdge> edges;
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
         for (end = i + 1;
@@ -111,7 +112,7 @@ Faces::Faces(const Soup& soup, std::span<const std::pair<std::uint32_t, std::uin
     std::vector<std::uint32_t> facets;
     for (std::uint32_t facet = 0; facet < is_near.size(); ++facet)
         if (is_near[facet]) facets.push_back(facet);
-    std::vector<FlatEdge> edges = find_flat_edges(soup, facets);
+    std::vector<FlatEdge> edges = find_flat_edges(soup, facets, context);
     if (edges.empty()) return;
     drop_shared(soup, edges, context);
     if (context.cancelled()) return;

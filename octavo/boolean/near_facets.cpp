@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <octavo/base/parallel.hpp>
-#include <octavo/base/uninitialised.hpp>
+#include <atomic>
+#include <numeric>
+
+#include <octavo/base/parallel_sort.hpp>
+#include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/lanes.hpp>
 #include <octavo/boolean/near_facets.hpp>
 
@@ -35,17 +38,27 @@ class PairSearch {
         chain();
     }
 
-    std::vector<Pair> run(std::span<const Pair> near) {
+    UninitialisedVector<Pair> run(std::span<const Pair> near) {
         if (!any_moved_ || context_.cancelled()) return {};
-        for (const auto& [first, second] : near) add(first, second);
-        for (std::uint32_t facet = 0; facet < moved_.size(); ++facet)
-            if (moved_[facet] && next_[first_of_[facet]] != no_index) pairs_.push_back({facet, facet});
+        collect(near.size(), grain, [&](std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
+            for (std::size_t i = begin; i < end; ++i) add(near[i].first, near[i].second, pairs);
+        });
+        collect(moved_.size(), grain, [&](std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
+            for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet)
+                if (moved_[facet] && next_[first_of_[facet]] != no_index) pairs.push_back({facet, facet});
+        });
         // A facet may have pieces in polygons of different names.
-        for (const auto& [facet, name] : merged_) add(facet, facet);
+        collect(merged_.size(), grain, [&](std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
+            for (std::size_t i = begin; i < end; ++i) add(merged_[i].first, merged_[i].first, pairs);
+        });
         gather();
-        for (std::size_t i = 0; i + 1 < begin_.size(); ++i)
-            about_corner({incident_.data() + begin_[i], begin_[i + 1] - begin_[i]});
-        std::sort(pairs_.begin(), pairs_.end());
+        collect(begin_.size() - 1, corner_grain,
+                [&](std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
+                    std::vector<End> ends;
+                    for (std::size_t i = begin; i < end; ++i)
+                        about_corner({incident_.data() + begin_[i], begin_[i + 1] - begin_[i]}, ends, pairs);
+                });
+        parallel_sort(context_, pairs_);
         pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
         return std::move(pairs_);
     }
@@ -54,7 +67,7 @@ class PairSearch {
     std::span<const std::uint32_t> next() const { return next_; }
 
   private:
-    static constexpr std::size_t grain = 1 << 15;
+    static constexpr std::size_t grain = 1 << 15, corner_grain = 1 << 11;
 
     /// A facet of the soup at a corner; its triangles may go by the names of several facets.
     struct Incident {
@@ -62,6 +75,27 @@ class PairSearch {
         std::uint32_t corner : 2;
         std::uint32_t moved : 1;
     };
+    /// Of an edge from a corner, with the position among the facets there.
+    using End = std::pair<std::uint32_t, std::uint32_t>;
+
+    /// Appends what `search(begin, end, pairs)` finds in the chunks of [0, count).
+    template <class Search>
+    void collect(std::size_t count, std::size_t chunk, const Search& search) {
+        std::vector<std::vector<Pair>> found((count + chunk - 1) / chunk);
+        parallel_chunks(context_, count, chunk, [&](std::size_t begin, std::size_t end) {
+            search(begin, end, found[begin / chunk]);
+        });
+        std::vector<std::size_t> place;
+        std::size_t size = pairs_.size();
+        for (const std::vector<Pair>& part : found) place.push_back(std::exchange(size, size + part.size()));
+        pairs_.resize(size);
+        parallel_chunks(context_, found.size(), 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                std::copy(found[i].begin(), found[i].end(), pairs_.data() + place[i]);
+                found[i] = {};
+            }
+        });
+    }
 
     /// The triangles of each facet, linked.
     void chain() {
@@ -82,16 +116,22 @@ class PairSearch {
             const std::uint32_t facet = surface_.facets[i].soup_facet;
             next_[i] = first_of_[facet];
             first_of_[facet] = i;
-            note_moved(i);
         }
-        if (rounded_.moves_vertices())
-            for (std::uint32_t i = 0; i < whole; ++i) note_moved(i);
+        const std::size_t first = rounded_.moves_vertices() ? 0 : whole;
+        parallel_chunks(context_, surface_.triangles.size() - first, grain,
+                        [&](std::size_t begin, std::size_t end) {
+                            for (std::size_t i = first + begin; i < first + end; ++i) note_moved(i);
+                        });
     }
-    void note_moved(std::uint32_t triangle) {
+    /// Threads may note the same.
+    void note_moved(std::size_t triangle) {
         for (const PointId corner : surface_.triangles[triangle])
-            if (rounded_.is_moved(corner))
-                moved_[surface_.facets[triangle].soup_facet] = 1, any_moved_ = true;
+            if (rounded_.is_moved(corner)) {
+                mark(moved_[surface_.facets[triangle].soup_facet]);
+                any_moved_.store(true, std::memory_order_relaxed);
+            }
     }
+    static void mark(char& flag) { std::atomic_ref(flag).store(1, std::memory_order_relaxed); }
 
     /// Calls `visit(facet)` for the names under which the triangles of a facet are found.
     template <class Visit>
@@ -102,10 +142,10 @@ class PairSearch {
             if (at->second != facet) visit(at->second);
     }
 
-    void add(std::uint32_t first, std::uint32_t second) {
+    void add(std::uint32_t first, std::uint32_t second, std::vector<Pair>& pairs) const {
         for_each_name(first, [&](std::uint32_t a) {
             for_each_name(second, [&](std::uint32_t b) {
-                if (a != b && (moved_[a] || moved_[b])) pairs_.push_back(std::minmax(a, b));
+                if (a != b && (moved_[a] || moved_[b])) pairs.push_back(std::minmax(a, b));
             });
         });
     }
@@ -117,47 +157,72 @@ class PairSearch {
             has_parts[facet] = 1;
             has_moved[facet] = static_cast<char>(has_moved[facet] | moved_[name]);
         }
-        std::vector<std::uint32_t> number(soup_.points.size(), no_index);
-        std::uint32_t corners = 0;
-        for (std::uint32_t facet = 0; facet < soup_.facets.size(); ++facet)
-            if (has_moved[facet])
-                for (const std::uint32_t corner : soup_.facets[facet])
-                    if (number[corner] == no_index) number[corner] = corners++;
+        const UninitialisedVector<std::uint32_t> number = number_corners(has_moved);
         struct Found {
             std::uint32_t corner;
             Incident incident;
         };
-        std::vector<std::vector<Found>> found(soup_.facets.size() / grain + 1);
+        // Corners are dealt out in ranges, each of which one task sorts its facets into.
+        using Dealt = std::array<std::vector<Found>, ranges>;
+        const std::size_t range = begin_.size() / ranges + 1;
+        std::vector<Dealt> found(soup_.facets.size() / grain + 1);
         parallel_chunks(context_, soup_.facets.size(), grain, [&](std::size_t begin, std::size_t end) {
+            Dealt& dealt = found[begin / grain];
             for (std::size_t i = begin; i < end; ++i) {
                 if (first_of_[i] == no_index && !has_parts[i]) continue;
                 for (std::uint32_t k = 0; k < 3; ++k) {
                     const std::uint32_t corner = number[soup_.facets[i][k]];
                     if (corner == no_index) continue;
                     const auto facet = static_cast<std::uint32_t>(i);
-                    found[begin / grain].push_back({corner, {facet, k, has_moved[i] != 0}});
+                    dealt[corner / range].push_back({corner, {facet, k, has_moved[i] != 0}});
                 }
             }
         });
-        begin_.assign(corners + 1, 0);
-        for (const std::vector<Found>& part : found)
-            for (const Found& each : part) ++begin_[each.corner + 1];
-        for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-        incident_.resize(begin_.back());
-        std::vector<std::uint32_t> place(begin_.begin(), begin_.end() - 1);
-        for (const std::vector<Found>& part : found)
-            for (const Found& each : part) incident_[place[each.corner]++] = each.incident;
+        const auto for_each_found = [&](const auto& visit) {
+            parallel_chunks(context_, ranges, 1, [&](std::size_t part, std::size_t) {
+                for (const Dealt& dealt : found)
+                    for (const Found& each : dealt[part]) visit(each);
+            });
+        };
+        for_each_found([&](const Found& each) { ++begin_[each.corner]; });
+        std::uint32_t sum = 0;
+        for (std::uint32_t& count : begin_) sum += count, count = sum;
+        incident_.resize(sum);
+        for_each_found([&](const Found& each) { incident_[--begin_[each.corner]] = each.incident; });
+    }
+    static constexpr std::size_t ranges = 16;
+
+    /// Numbers the corners of facets with moved points; makes room for a count of each and one more.
+    UninitialisedVector<std::uint32_t> number_corners(const std::vector<char>& has_moved) {
+        std::vector<char> is_corner(soup_.points.size(), 0);
+        parallel_chunks(context_, soup_.facets.size(), grain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t facet = begin; facet < end; ++facet)
+                if (has_moved[facet])
+                    for (const std::uint32_t corner : soup_.facets[facet]) mark(is_corner[corner]);
+        });
+        const std::vector<std::size_t> offset =
+            chunk_offsets(context_, is_corner.size(), grain, [&](std::size_t begin, std::size_t end) {
+                return static_cast<std::size_t>(
+                    std::count(is_corner.data() + begin, is_corner.data() + end, 1));
+            });
+        UninitialisedVector<std::uint32_t> number(is_corner.size());
+        parallel_chunks(context_, is_corner.size(), grain, [&](std::size_t begin, std::size_t end) {
+            auto next = static_cast<std::uint32_t>(offset[begin / grain]);
+            for (std::size_t i = begin; i < end; ++i) number[i] = is_corner[i] ? next++ : no_index;
+        });
+        begin_.assign(offset.back() + 1, 0);
+        return number;
     }
 
-    void about_corner(std::span<const Incident> facets) {
-        std::vector<std::pair<std::uint32_t, std::uint32_t>>
-            ends;  // of edges from here, with the facet's position
+    void about_corner(std::span<const Incident> facets, std::vector<End>& ends,
+                      std::vector<Pair>& pairs) const {
+        ends.clear();
         for (std::uint32_t i = 0; i < facets.size(); ++i)
             for (std::uint32_t k = 1; k < 3; ++k)
                 ends.push_back({soup_.facets[facets[i].facet][(facets[i].corner + k) % 3], i});
         std::sort(ends.begin(), ends.end());
         const auto add_two = [&](std::uint32_t i, std::uint32_t k) {
-            if (facets[i].moved || facets[k].moved) add(facets[i].facet, facets[k].facet);
+            if (facets[i].moved || facets[k].moved) add(facets[i].facet, facets[k].facet, pairs);
         };
         for (std::size_t i = 0; i < ends.size(); ++i)
             for (std::size_t k = i + 1; k < ends.size() && ends[k].first == ends[i].first; ++k)
@@ -197,18 +262,27 @@ class PairSearch {
     const Context& context_;
     std::vector<Pair> merged_;
     double tight_distance_ = 0;
-    bool any_moved_ = false;
+    std::atomic<bool> any_moved_ = false;
     UninitialisedVector<std::uint32_t> first_of_,
         next_;                          ///< triangle of a facet, and the next one after a triangle
     std::vector<char> moved_;           ///< per facet: its triangles have moved corners
     std::vector<std::uint32_t> begin_;  ///< into `incident_`, per corner
-    std::vector<Incident> incident_;
-    std::vector<Pair> pairs_;
+    UninitialisedVector<Incident> incident_;
+    UninitialisedVector<Pair> pairs_;
 };
 
 /// Boxes are larger by this many lattice units: mending takes points to numbers beside theirs.
 std::int32_t room_for_mending(const Soup& soup, const RoundedPoints& rounded) {
     return static_cast<std::int32_t>(std::ceil(2 * rounding_bound(soup.lattice, rounded.numbers())));
+}
+
+/// The lattice cell that holds a point, by its low corner.
+exact::Point below(const RoundedPoints& rounded, PointId id) {
+    const RoundedPoints::Point at = rounded[id];
+    const auto cell = [&](std::size_t axis) {
+        return static_cast<std::int32_t>(at[axis] >> RoundedPoints::fraction_bits);
+    };
+    return {cell(0), cell(1), cell(2)};
 }
 
 /// Groups of more triangles than this get a tree.
@@ -227,60 +301,108 @@ NearFacets::NearFacets(const Surface& surface, const Soup& soup, std::span<const
 void NearFacets::fill_groups(const Surface& surface, const Soup& soup, const RoundedPoints& rounded,
                              std::span<const std::uint32_t> first_of, std::span<const std::uint32_t> next,
                              const Context& context) {
+    find_groups(soup, first_of, next, context);
+    if (context.cancelled()) return forget();
     const std::int32_t mending = room_for_mending(soup, rounded);
-    std::vector<std::uint32_t> facets;
-    for (const auto& [first, second] : pairs_) facets.insert(facets.end(), {first, second});
-    std::sort(facets.begin(), facets.end());
-    facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
-    const auto below = [&](PointId id) {
-        const RoundedPoints::Point at = rounded[id];
-        const auto cell = [&](std::size_t axis) {
-            return static_cast<std::int32_t>(at[axis] >> RoundedPoints::fraction_bits);
-        };
-        return exact::Point{cell(0), cell(1), cell(2)};
-    };
-    Soup corners;  // of the triangles in large groups
-    for (const std::uint32_t facet : facets) {
-        const auto begin = static_cast<std::uint32_t>(triangles_.size());
-        const auto [p, q, r] = soup.facets[facet];
-        const exact::Plane plane = exact::Plane::through(soup.points[p], soup.points[q], soup.points[r]);
-        const int axis = plane.dominant_axis();
-        const double turn = exact::sign_of(plane.normal(axis)) == exact::Sign::positive ? 1 : -1;
-        for (std::uint32_t i = first_of[facet]; i != no_index; i = next[i]) {
-            const mesh::Triangle& t = surface.triangles[i];
-            const exact::Point a = below(t[0]), b = below(t[1]), c = below(t[2]);
-            triangles_.push_back(i);
-            const exact::Point low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
-                                   std::min({a.z, b.z, c.z})},
-                high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
-            Shape& shape = shapes_.emplace_back();
-            shape.low = {low.x - mending, low.y - mending, low.z - mending};
-            shape.high = {high.x + mending, high.y + mending, high.z + mending};
-            for (std::size_t k = 0; k < 5; ++k) {
-                const Vec3 at = lattice_place(rounded, t[k % 3]);
-                for (std::size_t each = 0; each < 3; ++each) shape.at[each][k] = at[each];
-                shape.ids[k] = static_cast<std::int32_t>(t[k % 3]);
+    triangles_.resize(groups_.empty() ? 0 : groups_.back().end);
+    shapes_.resize(triangles_.size());
+    parallel_chunks(context, groups_.size(), 1 << 10, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Group& group = groups_[i];
+            const auto [p, q, r] = soup.facets[group.facet];
+            const exact::Plane plane = exact::Plane::through(soup.points[p], soup.points[q], soup.points[r]);
+            const int axis = plane.dominant_axis();
+            const double turn = exact::sign_of(plane.normal(axis)) == exact::Sign::positive ? 1 : -1;
+            std::uint32_t triangle = first_of[group.facet];
+            for (std::uint32_t at = group.begin; at < group.end; ++at, triangle = next[triangle]) {
+                triangles_[at] = triangle;
+                shapes_[at] = shape_of(surface.triangles[triangle], rounded, mending, axis,
+                                       surface.facets[triangle].reversed ? -turn : turn);
             }
-            shape.axis = axis;
-            shape.turn = surface.facets[i].reversed ? -turn : turn;
         }
-        groups_.push_back({facet, begin, static_cast<std::uint32_t>(triangles_.size()), no_index});
-    }
-    const bool any_large = std::any_of(groups_.begin(), groups_.end(),
-                                       [](const Group& group) { return group.size() > large_group; });
-    if (!any_large) return;
-    for (const std::uint32_t triangle : triangles_) {
-        const auto first = static_cast<std::uint32_t>(corners.points.size());
-        for (const PointId corner : surface.triangles[triangle]) corners.points.push_back(below(corner));
-        corners.facets.push_back({first, first + 1, first + 2});
-    }
-    for (Group& group : groups_) {
-        if (group.size() <= large_group) continue;
+    });
+    plant_trees(surface, rounded, mending, context);
+}
+
+void NearFacets::forget() {
+    pairs_.clear();
+    groups_.clear();
+}
+
+void NearFacets::find_groups(const Soup& soup, std::span<const std::uint32_t> first_of,
+                             std::span<const std::uint32_t> next, const Context& context) {
+    if (pairs_.empty()) return;
+    constexpr std::size_t grain = 1 << 14;
+    std::vector<char> is_in_pair(soup.facets.size(), 0);
+    const auto mark = [&](std::uint32_t facet) {
+        std::atomic_ref(is_in_pair[facet]).store(1, std::memory_order_relaxed);
+    };
+    parallel_chunks(context, pairs_.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) mark(pairs_[i].first), mark(pairs_[i].second);
+    });
+    const std::vector<std::size_t> offset =
+        chunk_offsets(context, is_in_pair.size(), grain, [&](std::size_t begin, std::size_t end) {
+            return static_cast<std::size_t>(
+                std::count(is_in_pair.data() + begin, is_in_pair.data() + end, 1));
+        });
+    groups_.resize(offset.back());
+    parallel_chunks(context, is_in_pair.size(), grain, [&](std::size_t begin, std::size_t end) {
+        std::size_t at = offset[begin / grain];
+        for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+            if (!is_in_pair[facet]) continue;
+            std::uint32_t size = 0;
+            for (std::uint32_t i = first_of[facet]; i != no_index; i = next[i]) ++size;
+            groups_[at++] = {facet, 0, size, no_index};
+        }
+    });
+    if (context.cancelled()) return;
+    std::uint32_t sum = 0;
+    for (Group& group : groups_) group.begin = std::exchange(sum, sum + group.end), group.end = sum;
+}
+
+void NearFacets::plant_trees(const Surface& surface, const RoundedPoints& rounded, std::int32_t mending,
+                             const Context& context) {
+    std::vector<std::uint32_t> large;
+    for (std::uint32_t i = 0; i < groups_.size(); ++i)
+        if (groups_[i].size() > large_group)
+            groups_[i].tree = static_cast<std::uint32_t>(large.size()), large.push_back(i);
+    if (large.empty()) return;
+    Soup corners;  // of the triangles
+    corners.points.resize(3 * triangles_.size());
+    corners.facets.resize(triangles_.size());
+    parallel_chunks(context, triangles_.size(), 1 << 12, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto first = static_cast<std::uint32_t>(3 * i);
+            for (std::uint32_t k = 0; k < 3; ++k)
+                corners.points[first + k] = below(rounded, surface.triangles[triangles_[i]][k]);
+            corners.facets[i] = {first, first + 1, first + 2};
+        }
+    });
+    trees_.resize(large.size());
+    parallel_chunks(context, large.size(), 1, [&](std::size_t i, std::size_t) {
+        const Group& group = groups_[large[i]];
         std::vector<std::uint32_t> positions(group.size());
-        for (std::uint32_t i = 0; i < positions.size(); ++i) positions[i] = group.begin + i;
-        group.tree = static_cast<std::uint32_t>(trees_.size());
-        trees_.emplace_back(corners, std::move(positions), mending, context);
+        std::iota(positions.begin(), positions.end(), group.begin);
+        trees_[i] = BoxTree(corners, std::move(positions), mending, context);
+    });
+}
+
+NearFacets::Shape NearFacets::shape_of(const mesh::Triangle& t, const RoundedPoints& rounded,
+                                       std::int32_t mending, int axis, double turn) {
+    Shape shape;
+    const exact::Point a = below(rounded, t[0]), b = below(rounded, t[1]), c = below(rounded, t[2]);
+    shape.low = {std::min({a.x, b.x, c.x}) - mending, std::min({a.y, b.y, c.y}) - mending,
+                 std::min({a.z, b.z, c.z}) - mending};
+    shape.high = {std::max({a.x, b.x, c.x}) + mending, std::max({a.y, b.y, c.y}) + mending,
+                  std::max({a.z, b.z, c.z}) + mending};
+    for (std::size_t k = 0; k < 5; ++k) {
+        const Vec3 at = lattice_place(rounded, t[k % 3]);
+        for (std::size_t each = 0; each < 3; ++each) shape.at[each][k] = at[each];
+        shape.ids[k] = static_cast<std::int32_t>(t[k % 3]);
     }
+    shape.axis = axis;
+    shape.turn = turn;
+    return shape;
 }
 
 bool NearFacets::parts(const Shape& a, const Shape& b) const {

@@ -63,7 +63,7 @@ class NearFacets {
                const RoundedPoints& rounded, const Context& context);
 
     /// Sorted; one of either has a triangle with a moved corner.
-    const std::vector<Pair>& pairs() const { return pairs_; }
+    const UninitialisedVector<Pair>& pairs() const { return pairs_; }
     bool empty() const { return pairs_.empty(); }
 
     /// Calls `visit(first, second)` for the triangles of a pair that may meet, unless they are inverted; once for two of
@@ -139,13 +139,22 @@ class NearFacets {
                      std::span<const std::uint32_t> first_of, std::span<const std::uint32_t> next,
                      const Context& context);
 
+    /// What a cancelled search has left.
+    void forget();
+    void find_groups(const Soup& soup, std::span<const std::uint32_t> first_of,
+                     std::span<const std::uint32_t> next, const Context& context);
+    static Shape shape_of(const mesh::Triangle& triangle, const RoundedPoints& rounded, std::int32_t mending,
+                          int axis, double turn);
+    void plant_trees(const Surface& surface, const RoundedPoints& rounded, std::int32_t mending,
+                     const Context& context);
+
     double moved_ =
         0;  ///< how far mending may take two points apart in a coordinate, and what `Shape::at` is off by
-    std::vector<Pair> pairs_;
-    std::vector<Group> groups_;             ///< sorted by facet
-    std::vector<std::uint32_t> triangles_;  ///< of the groups
-    std::vector<Shape> shapes_;             ///< of these
-    std::vector<BoxTree> trees_;            ///< of large groups; their facets are positions in `triangles_`
+    UninitialisedVector<Pair> pairs_;
+    UninitialisedVector<Group> groups_;             ///< sorted by facet
+    UninitialisedVector<std::uint32_t> triangles_;  ///< of the groups
+    UninitialisedVector<Shape> shapes_;             ///< of these
+    std::vector<BoxTree> trees_;  ///< of large groups; their facets are positions in `triangles_`
 };
 
 }  // namespace octavo::boolean

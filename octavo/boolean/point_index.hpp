@@ -7,18 +7,18 @@
 
 #include <octavo/exact/point.hpp>
 
-// Finds lattice points by value. Made when first asked, because most jobs never construct a point that could be one.
+// Finds lattice points by value. Made only where one is looked for: most jobs never construct a point that could be one.
 
 namespace octavo::boolean {
 
 class PointIndex {
   public:
-    /// The index of `point` in `points`, which hold every point once and are the same at every call; no_index when it
-    /// is not among them.
-    std::uint32_t find(exact::Point point, std::span<const exact::Point> points);
+    /// Before the first search; nothing after that. `points` hold every point once and are the same at every call.
+    void prepare(std::span<const exact::Point> points);
+    /// The index of `point` in `points`; no_index when it is not among them.
+    std::uint32_t find(exact::Point point, std::span<const exact::Point> points) const;
 
   private:
-    void build(std::span<const exact::Point> points);
     std::vector<std::uint32_t> slots_;
 };
 

@@ -1,30 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <bit>
 #include <cmath>
 
+#include <octavo/base/parallel.hpp>
 #include <octavo/boolean/any_point.hpp>
-#include <octavo/boolean/lattice_cell.hpp>
 #include <octavo/boolean/point_table.hpp>
 #include <octavo/boolean/weld.hpp>
 #include <octavo/exact/compare.hpp>
 
 namespace octavo::boolean {
-PointId PointTable::add(const exact::EdgePoint& point) {
-    return add_to(point, edge_points_, Constructed::edge);
+template <class P>
+std::vector<std::vector<PointTable::Place>> PointTable::places(std::span<const std::span<const P>> lists,
+                                                               const Context& context) {
+    std::vector<std::vector<Place>> places(lists.size());
+    std::atomic<bool> any_corner = false;
+    parallel_chunks(context, lists.size(), 1, [&](std::size_t list, std::size_t) {
+        places[list].reserve(lists[list].size());
+        bool has_corner = false;
+        for (const P& point : lists[list]) {
+            places[list].push_back({lattice_cell(point), no_index});
+            has_corner = has_corner || places[list].back().cell.is_corner;
+        }
+        if (has_corner) any_corner.store(true, std::memory_order_relaxed);
+    });
+    if (!any_corner) return places;
+    vertices_.prepare(soup_.points);
+    parallel_chunks(context, lists.size(), 1, [&](std::size_t list, std::size_t) {
+        for (Place& place : places[list])
+            if (place.cell.is_corner) place.vertex = vertices_.find(place.cell.low, soup_.points);
+    });
+    return places;
 }
-PointId PointTable::add(const exact::TriplePoint& point) {
-    return add_to(point, triple_points_, Constructed::triple);
+template std::vector<std::vector<PointTable::Place>> PointTable::places(
+    std::span<const std::span<const exact::EdgePoint>>, const Context&);
+template std::vector<std::vector<PointTable::Place>> PointTable::places(
+    std::span<const std::span<const exact::TriplePoint>>, const Context&);
+
+PointId PointTable::add(const exact::EdgePoint& point, const Place& place) {
+    return add_to(point, place, edge_points_, Constructed::edge);
+}
+PointId PointTable::add(const exact::TriplePoint& point, const Place& place) {
+    return add_to(point, place, triple_points_, Constructed::triple);
 }
 
 template <class P>
-PointId PointTable::add_to(const P& point, std::vector<P>& same_kind, Constructed::Kind kind) {
-    const LatticeCell cell = lattice_cell(point);
+PointId PointTable::add_to(const P& point, const Place& place, std::vector<P>& same_kind,
+                           Constructed::Kind kind) {
+    if (place.vertex != no_index) return place.vertex;
+    const LatticeCell& cell = place.cell;
     const auto vertices = static_cast<PointId>(soup_.points.size());
-    if (cell.is_corner) {
-        const std::uint32_t vertex = vertices_.find(cell.low, soup_.points);
-        if (vertex != no_index) return vertex;
-        kind = Constructed::lattice;
-    }
+    if (cell.is_corner) kind = Constructed::lattice;
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = hash(cell.low) & mask;
     for (; slots_[slot] != no_index; slot = (slot + 1) & mask) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <variant>
 #include <vector>
 
+#include <octavo/base/context.hpp>
+#include <octavo/boolean/lattice_cell.hpp>
 #include <octavo/boolean/point_index.hpp>
 #include <octavo/boolean/soup.hpp>
 #include <octavo/exact/homogeneous_point.hpp>
@@ -32,8 +35,19 @@ class PointTable {
     /// Makes room for so many more points where an edge meets a plane.
     void reserve(std::size_t edge_points);
 
-    PointId add(const exact::EdgePoint& point);
-    PointId add(const exact::TriplePoint& point);
+    /// Where a point is, which threads may find out for many before one adds them.
+    struct Place {
+        LatticeCell cell;
+        std::uint32_t vertex = no_index;  ///< that it is, of the soup
+    };
+    /// Of each point of the lists, in the same order.
+    template <class P>
+    std::vector<std::vector<Place>> places(std::span<const std::span<const P>> lists, const Context& context);
+
+    PointId add(const exact::EdgePoint& point) { return add(point, place_of(point)); }
+    PointId add(const exact::TriplePoint& point) { return add(point, place_of(point)); }
+    PointId add(const exact::EdgePoint& point, const Place& place);
+    PointId add(const exact::TriplePoint& point, const Place& place);
 
     std::size_t size() const { return soup_.points.size() + constructed_.size(); }
     bool is_vertex(PointId id) const { return id < soup_.points.size(); }
@@ -86,7 +100,16 @@ class PointTable {
         std::uint32_t kind : 2;
     };
     template <class P>
-    PointId add_to(const P& point, std::vector<P>& same_kind, Constructed::Kind kind);
+    Place place_of(const P& point) {
+        Place place{lattice_cell(point), no_index};
+        if (place.cell.is_corner) {
+            vertices_.prepare(soup_.points);
+            place.vertex = vertices_.find(place.cell.low, soup_.points);
+        }
+        return place;
+    }
+    template <class P>
+    PointId add_to(const P& point, const Place& place, std::vector<P>& same_kind, Constructed::Kind kind);
     void rebuild_slots(std::size_t count);
 
     const Soup& soup_;

@@ -142,7 +142,7 @@ class FaultSearch {
 
     RoundingFaults all(const Context& context) const {
         RoundingFaults faults;
-        faults.inverted = find_inverted(surface_, soup_, rounded_);
+        faults.inverted = find_inverted(surface_, soup_, rounded_, context);
         constexpr std::size_t grain = 256;
         std::vector<std::vector<Crossing>> found(near_.pairs().size() / grain + 1);
         parallel_chunks(context, near_.pairs().size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -313,12 +313,18 @@ class Mending {
 }  // namespace
 
 std::vector<std::uint32_t> find_inverted(const Surface& surface, const Soup& soup,
-                                         const RoundedPoints& rounded) {
+                                         const RoundedPoints& rounded, const Context& context) {
+    constexpr std::size_t grain = 1 << 14;
+    const std::size_t first = rounded.moves_vertices() ? 0 : surface.first_piece(),
+                      count = surface.triangles.size() - first;
+    std::vector<std::vector<std::uint32_t>> found(count / grain + 1);
+    parallel_chunks(context, count, grain, [&](std::size_t begin, std::size_t end) {
+        for (auto i = static_cast<std::uint32_t>(first + begin); i < first + end; ++i)
+            if (has_moved(surface.triangles[i], rounded) && is_inverted(surface, i, soup, rounded))
+                found[begin / grain].push_back(i);
+    });
     std::vector<std::uint32_t> inverted;
-    const std::size_t begin = rounded.moves_vertices() ? 0 : surface.first_piece();
-    for (auto i = static_cast<std::uint32_t>(begin); i < surface.triangles.size(); ++i)
-        if (has_moved(surface.triangles[i], rounded) && is_inverted(surface, i, soup, rounded))
-            inverted.push_back(i);
+    for (const auto& part : found) inverted.insert(inverted.end(), part.begin(), part.end());
     return inverted;
 }
 
@@ -327,7 +333,7 @@ RoundingFaults mend_rounding(const Surface& surface, const Soup& soup, std::span
     const NearFacets near_facets(surface, soup, near, rounded, context);
     const FaultSearch search(surface, soup, near_facets, rounded);
     RoundingFaults faults = search.all(context);
-    if (faults.empty()) return faults;
+    if (faults.empty() || context.cancelled()) return faults;
     Mending mending(surface, near_facets, rounded, search);
     mending.run(faults, context);
     if (mending.moved_points == 0) return faults;

@@ -34,7 +34,7 @@ struct RoundingFaults {
 
 /// Facets that rounding turns over or makes flat, ascending.
 std::vector<std::uint32_t> find_inverted(const Surface& surface, const Soup& soup,
-                                         const RoundedPoints& rounded);
+                                         const RoundedPoints& rounded, const Context& context = {});
 
 /// Moves points of `rounded` so that there are few faults, and returns those left. `near` are the contacts' near pairs.
 RoundingFaults mend_rounding(const Surface& surface, const Soup& soup, std::span<const NearFacets::Pair> near,
