@@ -7,14 +7,15 @@
 namespace octavo::octree {
 namespace {
 
-/// The bits of a byte with a zero after each.
-constexpr std::array<std::uint16_t, 256> two_apart = [] {
-    std::array<std::uint16_t, 256> table{};
-    for (unsigned byte = 0; byte < 256; ++byte)
-        for (unsigned bit = 0; bit < 8; ++bit)
-            if (byte >> bit & 1) table[byte] = static_cast<std::uint16_t>(table[byte] | 1U << (2 * bit));
-    return table;
-}();
+/// The bits of a number with a zero after each.
+std::uint64_t two_apart(std::uint64_t bits) {
+    bits &= 0xFFFFFFFF;
+    bits = (bits | bits << 16) & 0x0000FFFF0000FFFF;
+    bits = (bits | bits << 8) & 0x00FF00FF00FF00FF;
+    bits = (bits | bits << 4) & 0x0F0F0F0F0F0F0F0F;
+    bits = (bits | bits << 2) & 0x3333333333333333;
+    return (bits | bits << 1) & 0x5555555555555555;
+}
 
 }  // namespace
 
@@ -40,24 +41,41 @@ Node DfCode::append(const GrandchildColors& colors) {
         append(node);
         return node;
     }
+    // Written here first, from where the last word has room: up to 31 nodes of it and 73 new ones.
+    std::array<std::uint64_t, 4> words{};
+    const std::size_t used = size_ % nodes_per_word;
+    if (used != 0) words[0] = words_.back();
+    std::size_t end = used;
+    const auto write = [&](std::uint64_t nodes, std::size_t count) {
+        const std::size_t shift = 2 * (end % nodes_per_word);
+        std::uint64_t* const to = &words[end / nodes_per_word];
+        to[0] |= nodes << shift;
+        to[1] |= nodes >> 1 >> (63 - shift);
+        end += count;
+    };
     std::uint64_t nodes = static_cast<std::uint64_t>(Node::split);
     std::size_t count = 1;
+    // The leaves of four octants each.
+    const std::uint64_t gray = ~(colors.white | colors.black);
+    const std::array<std::uint64_t, 2> leaves{two_apart(colors.black) | two_apart(gray) << 1,
+                                              two_apart(colors.black >> 32) | two_apart(gray >> 32) << 1};
+#pragma GCC unroll 8
     for (unsigned octant = 0; octant < 8; ++octant) {
         // Which octants are of one colour changes from cell to cell, so no branch asks.
-        const auto white = static_cast<std::uint8_t>(colors.white >> (8 * octant));
-        const auto black = static_cast<std::uint8_t>(colors.black >> (8 * octant));
-        const bool leaf = white == 0xFF || black == 0xFF;
-        const std::uint32_t gray = two_apart[static_cast<std::uint8_t>(~(white | black))];
-        const std::uint32_t split = 3U | (two_apart[black] | gray << 1) << 2;
-        nodes |= std::uint64_t{leaf ? black & 1U : split} << (2 * count);
-        count += leaf ? 1 : 9;
+        const std::uint64_t eight = leaves[octant / 4] >> (16 * (octant % 4)) & 0xFFFF;
+        const std::uint64_t is_one = (eight == 0) | (eight == 0x5555), split = 3U | eight << 2;
+        nodes |= (split ^ ((split ^ (eight & 1)) & (0 - is_one))) << (2 * count);
+        count += 9 - 8 * is_one;
         // Three octants are at most 27 nodes, and with the first 28.
         if (octant % 3 == 2 || octant == 7) {
-            append(nodes, count);
+            write(nodes, count);
             nodes = 0;
             count = 0;
         }
     }
+    if (used != 0) words_.back() = words[0];
+    for (std::size_t i = used != 0; nodes_per_word * i < end; ++i) words_.push_back(words[i]);
+    size_ += end - used;
     return Node::split;
 }
 
