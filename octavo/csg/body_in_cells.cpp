@@ -90,19 +90,23 @@ class BodiesInCells::Walk {
         Tangent& tangent = tangents_[i];
         if (first) tangent.gradient = {in_register(s.x), in_register(s.y), in_register(s.z)};
         tangent.value =
-            in_register(s.low) + (point_[0] * tangent.gradient[0] + point_[1] * tangent.gradient[1] +
-                                  point_[2] * tangent.gradient[2]);
+            multiply_add(point_[0], tangent.gradient[0],
+                         multiply_add(point_[1], tangent.gradient[1],
+                                      multiply_add(point_[2], tangent.gradient[2], in_register(s.low))));
     }
     void look_at_quadric(std::size_t i) {
         const Surfaces& s = surfaces_[i];
         const Floats x = point_[0], y = point_[1], z = point_[2], xx = in_register(s.xx),
                      yy = in_register(s.yy), zz = in_register(s.zz), xy = in_register(s.xy),
                      xz = in_register(s.xz), yz = in_register(s.yz);
-        const Floats along_x = in_register(s.x) + x * xx + (y * xy + z * xz),
-                     along_y = in_register(s.y) + y * yy + z * yz, along_z = in_register(s.z) + z * zz;
+        const Floats along_x =
+                         multiply_add(x, xx, multiply_add(y, xy, multiply_add(z, xz, in_register(s.x)))),
+                     along_y = multiply_add(y, yy, multiply_add(z, yz, in_register(s.y))),
+                     along_z = multiply_add(z, zz, in_register(s.z));
         tangents_[i] = {
-            in_register(s.low) + (x * along_x + y * along_y + z * along_z),
-            {along_x + x * xx, along_y + (y * yy + x * xy), along_z + (z * zz + (x * xz + y * yz))}};
+            multiply_add(x, along_x, multiply_add(y, along_y, multiply_add(z, along_z, in_register(s.low)))),
+            {multiply_add(x, xx, along_x), multiply_add(y, yy, multiply_add(x, xy, along_y)),
+             multiply_add(z, zz, multiply_add(x, xz, multiply_add(y, yz, along_z)))}};
     }
 
     /// What a component of a gradient adds to a linear function at the point on the way to where it is least in the cell.
@@ -119,11 +123,14 @@ class BodiesInCells::Walk {
         for (std::size_t a = 0; a < 3; ++a) {
             const Floats f = first.gradient[a], g = second.gradient[a], p = absolute(g), q = absolute(f);
             const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
-            const Floats least = p * first.value + q * second.value +
-                                 fall(p * first.gradient[b] + q * second.gradient[b], b) +
-                                 fall(p * first.gradient[c] + q * second.gradient[c], c);
+            const auto sum = [&](Floats of_first, Floats of_second) {
+                return multiply_add(p, of_first, q * of_second);
+            };
+            const Floats least = sum(first.value, second.value) +
+                                 fall(sum(first.gradient[b], second.gradient[b]), b) +
+                                 fall(sum(first.gradient[c], second.gradient[c]), c);
             // Infinite where a product overflows, which proves nothing.
-            missed_ |= (f * g < 0) & (least > p * first_room + q * second_room) & (least < 0x1p120F);
+            missed_ |= (f * g < 0) & (least > sum(first_room, second_room)) & (least < 0x1p120F);
         }
     }
 

@@ -2,6 +2,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors do not leave this file
 
 #include <bit>
+#include <cstring>
 
 #include <octavo/csg/brick_sides.hpp>
 #include <octavo/csg/float_lanes.hpp>
@@ -10,10 +11,8 @@
 namespace octavo::csg {
 namespace {
 
-// Lane k of a register is layer k; of cells, the upper four lanes are the layers again, two rows of cells further.
+// Lane k of a register is layer k.
 constexpr Floats corner_z{0, 1, 2, 3, 4, 0, 0, 0};
-constexpr Floats cell_z{0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
-constexpr Floats cell_y{0.5F, 0.5F, 0.5F, 0.5F, 2.5F, 2.5F, 2.5F, 2.5F};
 constexpr std::uint32_t row_bits = 5;  // from one row of corners or cells to the next
 
 Layers layers_of(Flags flags) { return {std::bit_cast<Layers::Lanes>(flags)}; }
@@ -37,37 +36,60 @@ LayerPair corners_one_by_one(const Value& value, decltype(value(0, 0, 0)) error)
     return corners;
 }
 
-/// One bit after the other, the highest first.
-class Bits {
-  public:
-    void add(Flags flags) { bits_ = (bits_ + bits_) - flags; }
-    Layers layers() const { return layers_of(bits_); }
-
-  private:
-    Flags bits_{};
-};
-
-/// Corners inside; all others are outside, unless some value is within the error.
+/// A quadric at all corners.
 struct QuadricCorners {
-    Layers inside;
+    Layers inside;   ///< all others are outside, unless some value is within the error
+    Layers far_off;  ///< where the quadric is larger than `bend`
     bool all_known;
 };
-QuadricCorners corners_of(const QuadricSteps& q, float error) {
-    Bits inside;
-    Floats nearest = Floats{} + 0x1p120F;
-    const Floats column = q.low + corner_z * (q.z + corner_z * q.zz);
-    const Floats along_x = q.x + corner_z * q.xz, along_y = q.y + corner_z * q.yz;
-    for (int j = 4; j >= 0; --j) {
-        const auto y = static_cast<float>(j);
-        const Floats row = column + y * (along_y + y * q.yy), slope = along_x + y * q.xy;
-        for (int i = 4; i >= 0; --i) {
-            const auto x = static_cast<float>(i);
-            const Floats value = row + x * (slope + x * q.xx), distance = absolute(value);
-            inside.add(value < 0);
-            nearest = smaller(distance, nearest);
-        }
+
+/// The corners of a layer, 25 in four registers, in the order of signs(); the last lanes repeat the last corner.
+struct SquareOfCorners {
+    alignas(32) std::array<std::array<float, 8>, 4> x{}, y{};
+};
+constexpr SquareOfCorners square_of_corners = [] {
+    SquareOfCorners square;
+    for (std::size_t n = 0; n < 32; ++n) {
+        const std::size_t corner = n < 25 ? n : 24, lane = n % 4 + n / 16 * 4;
+        square.x[n / 4 % 4][lane] = static_cast<float>(corner % 5);
+        square.y[n / 4 % 4][lane] = static_cast<float>(corner / 5);
     }
-    return {inside.layers() & Layers::corners(), !layers_of(nearest <= error).any()};
+    return square;
+}();
+Floats in_register(const std::array<float, 8>& numbers) {
+    Floats result;
+    std::memcpy(&result, numbers.data(), sizeof result);
+    return result;
+}
+
+/// Layer by layer, of which only the constant and the linear term change.
+QuadricCorners corners_of(const QuadricSteps& q, float error, float bend) {
+    std::array<Floats, 4> floor, rise;
+    for (std::size_t r = 0; r < 4; ++r) {
+        const Floats x = in_register(square_of_corners.x[r]), y = in_register(square_of_corners.y[r]);
+        const Floats along_x = multiply_add(x, q.xx, multiply_add(y, q.xy, Floats{} + q.x)),
+                     along_y = multiply_add(y, q.yy, Floats{} + q.y);
+        floor[r] = multiply_add(x, along_x, multiply_add(y, along_y, Floats{} + q.low));
+        rise[r] = multiply_add(x, q.xz, multiply_add(y, q.yz, Floats{} + q.z));
+    }
+    Floats nearest = Floats{} + 0x1p120F;
+    std::array<std::uint32_t, 5> inside, far_off;
+    for (std::size_t k = 0; k < 5; ++k) {
+        const auto z = static_cast<float>(k);
+        std::array<Floats, 4> value, above;
+        for (std::size_t r = 0; r < 4; ++r) {
+            value[r] = multiply_add(rise[r], z, floor[r] + z * z * q.zz);
+            above[r] = std::bit_cast<Floats>(value[r] > bend);
+            nearest = smaller(absolute(value[r]), nearest);
+        }
+        inside[k] = signs(value[0], value[1], value[2], value[3]);
+        far_off[k] = signs(above[0], above[1], above[2], above[3]);
+    }
+    const auto layers = [](const std::array<std::uint32_t, 5>& bits) {
+        return Layers{Layers::Lanes{bits[0], bits[1], bits[2], bits[3], bits[4], 0, 0, 0}} &
+               Layers::corners();
+    };
+    return {layers(inside), layers(far_off), !layers_of(nearest <= error).any()};
 }
 
 /// Two to the n, less one, in a float: a count of corners as their bits. For counts of five corners in three rows.
@@ -100,8 +122,9 @@ LayerPair corners_of(const PlaneSteps& p) {
     const float scale = turn / std::max(turn * p.sx, 1.0F), error = p.error(4) * std::fabs(scale);
     const Floats column = 1.0F - scale * (p.at_low + corner_z * p.sz);
     RowBits inside, not_outside;
+    const Floats step = Floats{} - scale * p.sy;
     for (std::uint32_t j = 0; j < 5; ++j) {
-        const Floats row = column - static_cast<float>(j) * (scale * p.sy);
+        const Floats row = multiply_add(step, static_cast<float>(j), column);
         const auto clamped = [](Floats v) { return smaller(larger(v, Floats{}), Floats{} + 5); };
         inside.add(j, clamped(row - error));
         not_outside.add(j, clamped(row + error));
@@ -110,27 +133,10 @@ LayerPair corners_of(const PlaneSteps& p) {
     return turn > 0 ? LayerPair{out, in} : LayerPair{in, out};
 }
 
-/// Cells in which the tangent at the middle, less `bend`, stays positive. For its rounding see point_sides.cpp.
-Layers above_tangent(const QuadricSteps& q, float bend) {
-    const Floats column = q.low + cell_z * (q.z + cell_z * q.zz);
-    Bits above;
-    for (int j = 1; j >= 0; --j) {
-        const Floats y = cell_y + static_cast<float>(j);
-        const Floats row = column + y * (q.y + y * q.yy + cell_z * q.yz);
-        const Floats slope = q.x + y * q.xy + cell_z * q.xz;
-        const Floats gy = q.y + 2 * y * q.yy + cell_z * q.yz, gz = q.z + 2 * cell_z * q.zz + y * q.yz;
-        above.add(Flags{});  // the fifth corner of a row is no cell
-        for (int i = 3; i >= 0; --i) {
-            const float x = static_cast<float>(i) + 0.5F;
-            const Floats change =
-                absolute(slope + 2 * x * q.xx) + absolute(gy + x * q.xy) + absolute(gz + x * q.xz);
-            const Floats least = row + x * (slope + x * q.xx) - 0.5F * change;
-            above.add(least > bend);
-        }
-    }
-    const Layers::Lanes cells = above.layers().layer;
-    return Layers{cells | __builtin_shufflevector(cells, cells, 4, 5, 6, 7, 0, 1, 2, 3) << (2 * row_bits)} &
-           Layers::cells();
+/// How far a quadric can be below the least of its values at a cell's corners: along each axis it falls short of what lies
+/// linearly between the ends by at most a quarter of the square term, and mixed terms are linear along each axis.
+float bend_between_corners(const QuadricSteps& q) {
+    return 0.25F * (std::max(q.xx, 0.0F) + std::max(q.yy, 0.0F) + std::max(q.zz, 0.0F));
 }
 
 void leave_other_nappe(const NappeSteps& nappe, LayerPair& corners, Layers& missed) {
@@ -200,19 +206,28 @@ void see(const QuadricSteps& q, float error, BrickSurface& s) {
     s.slope = std::sqrt(x * x + y * y + z * z);
 }
 
+/// Whether a brick lies in the interior of a leaf's box. That takes less than counting quarters and is so for a third of
+/// the leaves.
+bool holds(const Leaf& leaf, const octree::Cell& brick) {
+    bool result = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        result &= (leaf.low[a] < brick.low[axis]) & (leaf.high[a] > brick.low[axis] + brick.side());
+    }
+    return result;
+}
+
 }  // namespace
 
 BrickSides brick_sides(const LatticePlane& plane, const octree::Cell& brick, BrickSurface& surface) {
     const PlaneSteps p(plane, brick, brick.side() / 4);
     see(p, surface);
-    BrickSides result;
-    result.corners = corners_of(p);
-    if (!all_known(result.corners))
-        result.corners = corners_one_by_one(
+    LayerPair corners = corners_of(p);
+    if (!all_known(corners))
+        corners = corners_one_by_one(
             [&](int i, int j, int k) { return -p.low - i * p.x - j * p.y - k * p.z; }, std::int64_t{0});
-    result.white = without(Layers::cells(), cells_with_corner(result.corners.in));
-    result.black = without(Layers::cells(), cells_with_corner(result.corners.out));
-    return result;
+    return {corners, without(Layers::cells(), cells_with_corner(corners.in)),
+            without(Layers::cells(), cells_with_corner(corners.out))};
 }
 
 BrickSides brick_sides(const Quadric& quadric, const octree::Cell& brick, BrickSurface& surface) {
@@ -222,23 +237,23 @@ BrickSides brick_sides(const Quadric& quadric, const octree::Cell& brick, BrickS
     const QuadricSteps q(quadric, corner, quarter, 4);
     const float rounding = single_error * q.size + (static_cast<float>(error) * 1.0001F + underflow);
     see(q, rounding, surface);
-    BrickSides result;
-    if (const QuadricCorners corners = corners_of(q, rounding); corners.all_known)
-        result.corners = {without(Layers::corners(), corners.inside), corners.inside};
-    else
-        result.corners = corners_one_by_one(
+    // The error of the values and of the bend, each with as much to spare.
+    const QuadricCorners seen = corners_of(q, rounding, 4 * rounding + bend_between_corners(q));
+    LayerPair corners{without(Layers::corners(), seen.inside), seen.inside};
+    if (!seen.all_known)
+        corners = corners_one_by_one(
             [&](int i, int j, int k) { return corner.at(quadric, i * quarter, j * quarter, k * quarter); },
             error);
+    Layers white = without(Layers::cells(), cells_with_corner(without(Layers::corners(), seen.far_off)));
     const auto drop = static_cast<float>(0.5 * quarter * quadric.axis_reach);
-    result.white = above_tangent(q, 4 * rounding + drop * drop * 1.0001F);
     surface.bend = 4 * drop * drop * 1.0001F;
     if (quadric.axis_reach != 0) {
         const NappeSteps nappe(quadric, offset, quarter);
         surface.plain = nappe.all_positive(4);
-        if (!surface.plain) leave_other_nappe(nappe, result.corners, result.white);
+        if (!surface.plain) leave_other_nappe(nappe, corners, white);
     }
-    result.black = without(Layers::cells(), cells_with_corner(without(Layers::corners(), result.corners.in)));
-    return result;
+    return {corners, white,
+            without(Layers::cells(), cells_with_corner(without(Layers::corners(), corners.in)))};
 }
 
 BrickSides brick_sides(const LatticeTorus& torus, const octree::Cell& brick) {
@@ -255,6 +270,9 @@ BrickSides brick_sides(const LatticeTorus& torus, const octree::Cell& brick) {
 }
 
 BrickSides brick_sides_of_box(const Leaf& leaf, const octree::Cell& brick) {
+    if (holds(leaf, brick))
+        return leaf.kind == LeafKind::box ? BrickSides{{{}, Layers::corners()}, {}, Layers::cells()}
+                                          : BrickSides{};
     const int shift = std::countr_zero(static_cast<std::uint32_t>(brick.side())) - 2;
     constexpr BoxCounts on_low{-1, -1, -1, 0, 0, 0, 0, 0}, on_high{0, 0, 0, 0, -1, -1, -1, 0};
     const BoxCounts sides{leaf.low[0],  leaf.low[1],  leaf.low[2],  0,
@@ -263,14 +281,13 @@ BrickSides brick_sides_of_box(const Leaf& leaf, const octree::Cell& brick) {
                            brick.low.x, brick.low.y, brick.low.z, 0};
     // How many quarters the sides are from the low corner, rounded down and up.
     const BoxCounts down = (sides - corner) >> shift, up = (sides - corner + ((1 << shift) - 1)) >> shift;
-    BrickSides result;
-    result.corners.out = any_axis(not_between((up & on_low) | ((down + 1) & on_high), 5)) & Layers::corners();
-    result.white = any_axis(not_between((down & on_low) | (up & on_high), 4)) & Layers::cells();
-    if (leaf.kind != LeafKind::box) return result;
-    result.corners.in =
-        without(Layers::corners(), any_axis(not_between(((down + 1) & on_low) | (up & on_high), 5)));
-    result.black = without(Layers::cells(), any_axis(not_between((up & on_low) | (down & on_high), 4)));
-    return result;
+    const Layers out = any_axis(not_between((up & on_low) | ((down + 1) & on_high), 5)) & Layers::corners();
+    const Layers white = any_axis(not_between((down & on_low) | (up & on_high), 4)) & Layers::cells();
+    if (leaf.kind != LeafKind::box) return {{out, {}}, white, {}};
+    return {
+        {out, without(Layers::corners(), any_axis(not_between(((down + 1) & on_low) | (up & on_high), 5)))},
+        white,
+        without(Layers::cells(), any_axis(not_between((up & on_low) | (down & on_high), 4)))};
 }
 
 }  // namespace octavo::csg

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
-#ifdef __AVX__
+#ifdef __SSE2__
 #include <immintrin.h>
 #endif
 
@@ -35,6 +36,42 @@ inline Floats smaller(Floats a, Floats b) {
     return _mm256_min_ps(a, b);
 #else
     return a < b ? a : b;
+#endif
+}
+
+/// a b + c, of one rounding where the machine has that. Single precision only ever excludes, by bounds that hold for
+/// fewer roundings as well.
+inline Floats multiply_add(Floats a, Floats b, Floats c) {
+#ifdef __FMA__
+    return _mm256_fmadd_ps(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+inline Floats multiply_add(Floats a, float b, Floats c) { return multiply_add(a, Floats{} + b, c); }
+
+/// The sign bits of 32 numbers: bit n is that of lane n % 4 of quarter n / 4, where the quarters are the lower halves of
+/// the four registers and then the upper ones. Of flags they are the flags.
+inline std::uint32_t signs(Floats a, Floats b, Floats c, Floats d) {
+#ifdef __AVX2__
+    const auto integers = [](Floats v) { return std::bit_cast<__m256i>(v); };
+    return static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_packs_epi16(
+        _mm256_packs_epi32(integers(a), integers(b)), _mm256_packs_epi32(integers(c), integers(d)))));
+#else
+    const auto of_quarters = [](Floats v, int quarter) {
+#ifdef __SSE2__
+        const auto signs_of = [](__m128 half) { return static_cast<std::uint32_t>(_mm_movemask_ps(half)); };
+        return signs_of(__builtin_shufflevector(v, v, 0, 1, 2, 3)) << (4 * quarter) |
+               signs_of(__builtin_shufflevector(v, v, 4, 5, 6, 7)) << (4 * quarter + 16);
+#else
+        const auto flags = std::bit_cast<Flags>(v) < 0;
+        std::uint32_t bits = 0;
+        for (int lane = 0; lane < 8; ++lane)
+            bits |= (static_cast<std::uint32_t>(flags[lane]) & 1) << (4 * quarter + lane % 4 + lane / 4 * 16);
+        return bits;
+#endif
+    };
+    return of_quarters(a, 0) | of_quarters(b, 1) | of_quarters(c, 2) | of_quarters(d, 3);
 #endif
 }
 
