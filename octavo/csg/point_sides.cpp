@@ -14,15 +14,19 @@ constexpr Floats ninth_z{0, 1, 2, 0, 0, 0, 0, 0};
 constexpr Floats middle_x{0.5F, 1.5F, 0.5F, 1.5F, 0.5F, 1.5F, 0.5F, 1.5F},
     middle_y{0.5F, 0.5F, 1.5F, 1.5F, 0.5F, 0.5F, 1.5F, 1.5F},
     middle_z{0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
-constexpr Flags layer_bits{1, 2, 4, 8, 16, 32, 64, 128};
-constexpr Flags ninth_bits{1 << 8, 1 << 17, 1 << 26, 0, 0, 0, 0, 0};
 
-std::uint32_t joined(Flags flags) {
+/// One bit a lane.
+std::uint32_t bits_of(Flags flags) {
+#ifdef __AVX__
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(std::bit_cast<Floats>(flags)));
+#else
     using Half = std::int32_t __attribute__((vector_size(16)));
+    flags &= Flags{1, 2, 4, 8, 16, 32, 64, 128};
     Half half =
         __builtin_shufflevector(flags, flags, 0, 1, 2, 3) | __builtin_shufflevector(flags, flags, 4, 5, 6, 7);
     half |= __builtin_shufflevector(half, half, 2, 3, 0, 1);
     return static_cast<std::uint32_t>(half[0] | half[1]);
+#endif
 }
 
 /// Values of a surface at the 35 points, negative inside.
@@ -39,9 +43,11 @@ struct Values {
   private:
     template <class Test>
     std::uint64_t points(const Test& test) const {
-        const Flags corners = (test(layer[0]) & layer_bits) | (test(layer[1]) & (layer_bits << 9)) |
-                              (test(layer[2]) & (layer_bits << 18)) | (test(ninth) & ninth_bits);
-        return joined(corners) | std::uint64_t{joined(test(middle) & layer_bits)} << PointColors::corners;
+        const std::uint32_t ninths = bits_of(test(ninth));
+        const std::uint32_t corners = bits_of(test(layer[0])) | bits_of(test(layer[1])) << 9 |
+                                      bits_of(test(layer[2])) << 18 | (ninths & 1) << 8 | (ninths & 2) << 16 |
+                                      (ninths & 4) << 24;
+        return corners | std::uint64_t{bits_of(test(middle))} << PointColors::corners;
     }
 };
 
@@ -81,7 +87,7 @@ std::uint8_t above_tangent(const QuadricSteps& q, Floats middle, float bend) {
     const Floats gy = q.y + middle_x * q.xy + 2 * middle_y * q.yy + middle_z * q.yz;
     const Floats gz = q.z + middle_x * q.xz + middle_y * q.yz + 2 * middle_z * q.zz;
     const Floats least = middle - 0.5F * (absolute(gx) + absolute(gy) + absolute(gz));
-    return static_cast<std::uint8_t>(joined((least > bend) & layer_bits));
+    return static_cast<std::uint8_t>(bits_of(least > bend));
 }
 
 void leave_other_nappe(const NappeSteps& nappe, QuadricSides& sides) {
@@ -117,7 +123,7 @@ OctantColors octants_of(const LatticePlane& plane, const octree::Cell& cell) {
     const PlaneSteps p(plane, cell, cell.side() / 2);
     const Floats middle = p.at_low + middle_x * p.sx + middle_y * p.sy + middle_z * p.sz;
     const float reach = 0.5F * (std::fabs(p.sx) + std::fabs(p.sy) + std::fabs(p.sz)), error = p.error(2);
-    const auto octants = [](Flags flags) { return static_cast<std::uint8_t>(joined(flags & layer_bits)); };
+    const auto octants = [](Flags flags) { return static_cast<std::uint8_t>(bits_of(flags)); };
     const OctantColors colors{octants(middle - reach > error), octants(middle + reach < -error)};
     if ((octants(middle - reach >= -error) == colors.white) &&
         (octants(middle + reach <= error) == colors.black))
@@ -144,6 +150,31 @@ QuadricSides sides_of(const Quadric& quadric, const octree::Cell& cell) {
     sides.missed = above_tangent(q, values.middle, 4 * rounding + drop * drop * 1.0001F);
     if (quadric.axis_reach != 0) leave_other_nappe(NappeSteps(quadric, offset, quarter), sides);
     return sides;
+}
+
+OctantColors octants_of(const Quadric& quadric, const octree::Cell& cell) {
+    const Offset offset(quadric.origin, cell);
+    const double side = cell.side();
+    if (quadric.axis_reach != 0 && !NappeSteps(quadric, offset, 0.25 * side).all_positive(4)) {
+        const QuadricSides sides = sides_of(quadric, cell);
+        return {sides.missed, static_cast<std::uint8_t>(~octants_with_corner(~sides.points.inside))};
+    }
+    const QuadricSteps q(quadric, QuadricAtCorner(quadric, offset.low), 0.5 * side, 2);
+    const float rounding = 4 * (single_error * q.size +
+                                (static_cast<float>(quadric.error(offset.farthest)) * 1.0001F + underflow));
+    // From the middle of an octant as far as the quadric can rise or fall.
+    const Floats gx = q.x + 2 * middle_x * q.xx + middle_y * q.xy + middle_z * q.xz;
+    const Floats gy = q.y + middle_x * q.xy + 2 * middle_y * q.yy + middle_z * q.yz;
+    const Floats gz = q.z + middle_x * q.xz + middle_y * q.yz + 2 * middle_z * q.zz;
+    const Floats middle =
+        q.low + 0.5F * (middle_x * (gx + q.x) + middle_y * (gy + q.y) + middle_z * (gz + q.z));
+    const Floats slope = 0.5F * (absolute(gx) + absolute(gy) + absolute(gz));
+    const auto drop = static_cast<float>(0.25 * side * quadric.axis_reach);
+    const float rise = 0.25F * (std::max(q.xx, 0.0F) + std::max(q.yy, 0.0F) + std::max(q.zz, 0.0F) +
+                                std::fabs(q.xy) + std::fabs(q.xz) + std::fabs(q.yz));
+    const auto octants = [](Flags flags) { return static_cast<std::uint8_t>(bits_of(flags)); };
+    return {octants(middle - slope > rounding + drop * drop * 1.0001F),
+            octants(middle + slope < -rounding - rise)};
 }
 
 PointColors sides_of(const LatticeTorus& torus, const octree::Cell& cell) {

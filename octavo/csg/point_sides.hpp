@@ -30,5 +30,7 @@ struct QuadricSides {
     std::uint8_t missed = 0;
 };
 QuadricSides sides_of(const Quadric& quadric, const octree::Cell& cell);
+/// Only the octants that it certainly misses or holds.
+OctantColors octants_of(const Quadric& quadric, const octree::Cell& cell);
 
 }  // namespace octavo::csg
