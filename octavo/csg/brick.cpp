@@ -89,7 +89,7 @@ CornersSeen Brick::look_at(const Leaf& leaf, Payload payload, const octree::Cell
     if (!met.any()) return {{box.white, {}}, {box.corners.out, {}}};
     switch (leaf.kind) {
         case LeafKind::convex:
-            return look_at_convex(payload.all ? program_->constraints_of(leaf) : payload.items, parent, box,
+            return look_at_convex(payload.all() ? program_->constraints_of(leaf) : payload.items, parent, box,
                                   node);
         case LeafKind::torus:
             return look_at_torus(program_->tori[leaf.first], parent, node.needed, box);
@@ -193,12 +193,12 @@ void Brick::prune(BrickCell cell, Scratch<std::uint32_t>& buffer) {
     };
     const std::size_t place = 8 * (cell.x / 2 + 2 * (cell.y / 2) + 4 * (cell.z / 2)) +
                               (cell.x % 2 + 2 * (cell.y % 2) + 4 * (cell.z % 2));
-    const auto write = [&](std::uint32_t at, std::size_t, std::uint32_t* end) {
+    const auto write = [&](std::uint32_t at, unsigned, std::array<std::uint32_t*, 8>& ends) {
         const Node& node = nodes_[at];
         const Layers* const matters = matters_.data() + node.matters;
         const bool polyhedron = program_->leaves[word::leaf(words[at])].kind == LeafKind::polyhedron;
-        return write_leaf(*program_, words, at, polyhedron ? windings_[node.windings + place] : 0, end,
-                          [&](std::size_t i) { return cell.in(matters[i]); });
+        ends[0] = write_leaf(*program_, words, at, polyhedron ? windings_[node.windings + place] : 0, ends[0],
+                             [&](std::size_t i) { return cell.in(matters[i]); });
     };
     prune_words(words, written_, 1, to, colors_at, write);
     buffer.end_at(to[0]);

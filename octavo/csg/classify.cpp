@@ -27,17 +27,19 @@ struct ConstraintSides {
 };
 template <bool with_points>
 ConstraintSides sides_of_constraint(const Program& program, std::uint32_t id, const octree::Cell& parent) {
-    if (ConstraintId::is_cone(id)) {
-        const QuadricSides sides = sides_of(program.quadrics[ConstraintId::index(id)], parent);
-        return {sides.points, sides.missed,
-                static_cast<std::uint8_t>(~octants_with_corner(~sides.points.inside))};
-    }
     if constexpr (with_points) {
+        if (ConstraintId::is_cone(id)) {
+            const QuadricSides sides = sides_of(program.quadrics[ConstraintId::index(id)], parent);
+            return {sides.points, sides.missed,
+                    static_cast<std::uint8_t>(~octants_with_corner(~sides.points.inside))};
+        }
         const PointColors points = sides_of(program.planes[id], parent);
         return {points, static_cast<std::uint8_t>(~octants_with_corner(points.inside)),
                 static_cast<std::uint8_t>(~octants_with_corner(points.outside))};
     } else {
-        const OctantColors octants = octants_of(program.planes[id], parent);
+        const OctantColors octants = ConstraintId::is_cone(id)
+                                         ? octants_of(program.quadrics[ConstraintId::index(id)], parent)
+                                         : octants_of(program.planes[id], parent);
         return {{}, octants.white, octants.black};
     }
 }
@@ -123,7 +125,7 @@ SeenOfLeaf classify(const Program& program, const Leaf& leaf, Payload payload, c
     switch (leaf.kind) {
         case LeafKind::convex:
             return classify_convex<SeenOfLeaf>(program,
-                                               payload.all ? program.constraints_of(leaf) : payload.items,
+                                               payload.all() ? program.constraints_of(leaf) : payload.items,
                                                parent, needed, box, remains);
         case LeafKind::torus: {
             const LatticeTorus& torus = program.tori[leaf.first];
@@ -143,7 +145,7 @@ template ColorsSeen classify<ColorsSeen>(const Program&, const Leaf&, Payload, c
 
 TrianglesInCell triangles_in(const LatticePolyhedron& polyhedron, Payload payload, const octree::Cell& cell,
                              std::vector<std::uint32_t>& all) {
-    if (!payload.all) return {payload.items.subspan(1), winding_of_word(payload.items[0])};
+    if (!payload.all()) return {payload.items.subspan(1), winding_of_word(payload.items[0])};
     all.resize(polyhedron.triangles.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
     std::int32_t winding = polyhedron.winding_of_universe();

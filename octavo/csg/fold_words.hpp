@@ -132,8 +132,8 @@ inline void close_operation(std::uint32_t* word, std::uint32_t operands, const s
 }
 
 /// Writes what is undecided in each of some cells, of up to eight, in one pass over the words: each is needed in one or
-/// two cells only. `colors_at(at)` are those of the node at a word, `write_leaf(at, cell, to)` writes a leaf and returns
-/// the end. The program must be gray in the cells. `to` is moved on to the ends of what was written.
+/// two cells only. `colors_at(at)` are those of the node at a word, `write_leaf(at, cells, to)` writes a leaf in some of the
+/// cells and moves their `to` on. The program must be gray in the cells. `to` is moved on to the ends of what was written.
 template <class ColorsAt, class WriteLeaf>
 void prune_words(std::span<const std::uint32_t> words, std::vector<WrittenOperation>& written, unsigned cells,
                  std::array<std::uint32_t*, 8>& to, const ColorsAt& colors_at, const WriteLeaf& write_leaf) {
@@ -163,7 +163,7 @@ void prune_words(std::span<const std::uint32_t> words, std::vector<WrittenOperat
             for_each_bit(gray, [&](std::size_t i) { ++around.operands[i]; });
         }
         if (gray == 0 || word::is_leaf(w)) {
-            for_each_bit(gray, [&](std::size_t i) { to[i] = write_leaf(at, i, to[i]); });
+            if (gray != 0) write_leaf(at, gray, to);
             at += word::size(words.data() + at);
             continue;
         }
@@ -180,17 +180,45 @@ void prune_words(std::span<const std::uint32_t> words, std::vector<WrittenOperat
     }
 }
 
-/// The payload of a leaf: all of it (`items` empty and `all` true), or the words after the count.
+/// The payload of a leaf: all of it, or the words after the count. Two numbers, since three would go through memory.
 struct Payload {
-    bool all = true;
     std::span<const std::uint32_t> items;
+
+    bool all() const { return items.data() == nullptr; }
 };
 inline Payload payload_at(std::span<const std::uint32_t> words, std::size_t at) {
     if (!(words[at] & word::payload_bit)) return {};
-    return {false, words.subspan(at + 2, words[at + 1])};
+    return {words.subspan(at + 2, words[at + 1])};
 }
 /// Payload word of a polyhedron that precedes its triangles.
 inline std::int32_t winding_of_word(std::uint32_t word) { return static_cast<std::int32_t>(word); }
+
+/// The constraints of the convex leaf at a word.
+inline std::span<const std::uint32_t> constraints_at(const Program& program, const Leaf& leaf,
+                                                     std::span<const std::uint32_t> words, std::size_t at) {
+    const Payload payload = payload_at(words, at);
+    return payload.all() ? program.constraints_of(leaf) : payload.items;
+}
+
+/// Writes those of some words for which `matters` holds, by their place, and returns the end.
+template <class Matters>
+std::uint32_t* write_items(std::span<const std::uint32_t> items, std::uint32_t* to, const Matters& matters) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        *to = items[i];
+        to += matters(i);
+    }
+    return to;
+}
+
+/// Writes a convex leaf with those of its constraints that matter.
+template <class Matters>
+std::uint32_t* write_convex(std::uint32_t w, std::span<const std::uint32_t> constraints, std::uint32_t* to,
+                            const Matters& matters) {
+    std::uint32_t* const end = write_items(constraints, to + 2, matters);
+    to[0] = w | word::payload_bit;
+    to[1] = static_cast<std::uint32_t>(end - to - 2);
+    return end;
+}
 
 /// Writes the leaf at a word with those items of its payload that matter, `matters(i)` by their place in it; `winding`
 /// is that of a polyhedron in the cell.
@@ -199,31 +227,25 @@ std::uint32_t* write_leaf(const Program& program, std::span<const std::uint32_t>
                           std::int32_t winding, std::uint32_t* to, const Matters& matters) {
     const std::uint32_t w = words[at];
     const Leaf& leaf = program.leaves[word::leaf(w)];
-    if (leaf.kind == LeafKind::box || leaf.kind == LeafKind::torus) {
+    if (leaf.kind == LeafKind::convex)
+        return write_convex(w, constraints_at(program, leaf, words, at), to, matters);
+    if (leaf.kind != LeafKind::polyhedron) {
         *to++ = w;
         return to;
     }
-    *to++ = w | word::payload_bit;
-    std::uint32_t* const count = to++;
-    Payload payload = payload_at(words, at);
-    std::size_t i = 0;
-    if (leaf.kind == LeafKind::polyhedron) {
-        *to++ = static_cast<std::uint32_t>(winding);
-        const std::size_t triangles = payload.all ? program.polyhedra[leaf.first].triangles.size() : 0;
-        for (; i < triangles; ++i) {
-            *to = static_cast<std::uint32_t>(i);
-            to += matters(i);
+    std::uint32_t* end = to + 3;
+    to[0] = w | word::payload_bit;
+    to[2] = static_cast<std::uint32_t>(winding);
+    if (const Payload payload = payload_at(words, at); !payload.all()) {
+        end = write_items(payload.items.subspan(1), end, matters);
+    } else {
+        for (std::size_t i = 0; i < program.polyhedra[leaf.first].triangles.size(); ++i) {
+            *end = static_cast<std::uint32_t>(i);
+            end += matters(i);
         }
-        if (!payload.all) payload.items = payload.items.subspan(1);
-    } else if (payload.all) {
-        payload.items = program.constraints_of(leaf);
     }
-    for (const std::uint32_t item : payload.items) {
-        *to = item;
-        to += matters(i++);
-    }
-    *count = static_cast<std::uint32_t>(to - count - 1);
-    return to;
+    to[1] = static_cast<std::uint32_t>(end - to - 2);
+    return end;
 }
 
 }  // namespace octavo::csg

@@ -77,12 +77,12 @@ struct BrickCell {
 /// Calls `visit` with each of some cells.
 template <class Visit>
 void for_each_cell(const Layers& cells, const Visit& visit) {
-    std::uint32_t squares[4];
-    std::memcpy(squares, &cells.layer, sizeof squares);
-    for (std::uint32_t z = 0; z < 4; ++z)
-        for (std::uint32_t square = squares[z]; square != 0; square &= square - 1) {
-            const auto bit = static_cast<std::uint32_t>(std::countr_zero(square));
-            visit(BrickCell{bit % 5, bit / 5, z});
+    std::uint64_t halves[2];
+    std::memcpy(halves, &cells.layer, sizeof halves);
+    for (std::uint32_t half = 0; half < 2; ++half)
+        for (std::uint64_t bits = halves[half]; bits != 0; bits &= bits - 1) {
+            const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits)), in_layer = bit % 32;
+            visit(BrickCell{in_layer % 5, in_layer / 5, 2 * half + bit / 32});
         }
 }
 

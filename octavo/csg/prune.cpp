@@ -91,14 +91,28 @@ std::array<Pruner::Part, 8> Pruner::prune(std::span<const std::uint32_t> words, 
     std::uint32_t* const room = buffer.room(size);
     std::array<std::uint32_t*, 8> to{};
     for_each_bit(octants, [&](std::size_t i) { to[i] = buffer.data() + parts[i].begin; });
-    const auto write = [&](std::uint32_t at, std::size_t octant, std::uint32_t* end) {
+    const auto write = [&](std::uint32_t at, unsigned gray, std::array<std::uint32_t*, 8>& ends) {
         const Node& node = nodes_[at];
-        if (node.whole) return std::copy_n(words.data() + at, word::size(words.data() + at), end);
+        const Leaf& leaf = program_->leaves[word::leaf(words[at])];
         const std::uint8_t* const matters = remains_.matters.data() + node.matters;
-        const bool polyhedron = program_->leaves[word::leaf(words[at])].kind == LeafKind::polyhedron;
-        const std::int32_t winding = polyhedron ? remains_.windings[node.windings + octant] : 0;
-        return write_leaf(*program_, words, at, winding, end,
-                          [&](std::size_t i) { return matters[i] >> octant & 1; });
+        if (node.whole) {
+            const std::uint32_t length = word::size(words.data() + at);
+            for_each_bit(gray,
+                         [&](std::size_t i) { ends[i] = std::copy_n(words.data() + at, length, ends[i]); });
+        } else if (leaf.kind == LeafKind::convex) {
+            const std::span<const std::uint32_t> constraints = constraints_at(*program_, leaf, words, at);
+            for_each_bit(gray, [&](std::size_t octant) {
+                ends[octant] = write_convex(words[at], constraints, ends[octant],
+                                            [&](std::size_t i) { return matters[i] >> octant & 1; });
+            });
+        } else {
+            for_each_bit(gray, [&](std::size_t octant) {
+                const std::int32_t winding =
+                    leaf.kind == LeafKind::polyhedron ? remains_.windings[node.windings + octant] : 0;
+                ends[octant] = write_leaf(*program_, words, at, winding, ends[octant],
+                                          [&](std::size_t i) { return matters[i] >> octant & 1; });
+            });
+        }
     };
     prune_words(
         words, written_, octants, to, [&](std::uint32_t at) { return nodes_[at].colors; }, write);
