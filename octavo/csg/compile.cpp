@@ -166,7 +166,7 @@ bool is_bounded(const Box3& box) { return octavo::is_finite(box.low) && octavo::
 Result<Program> compile(const Expr& expression, const CompileOptions& options, const Context& context) {
     Result<NormalForm> form = normal_form(expression, options.normal_form);
     if (!form) return form.error();
-    const FormBounds bounds = form_bounds(*form);
+    FormBounds bounds = form_bounds(*form);
     Box3 content = options.universe ? *options.universe : bounds.box();
     Program program;
     if (content.empty() && !options.universe)
@@ -181,6 +181,8 @@ Result<Program> compile(const Expr& expression, const CompileOptions& options, c
     // Putting a primitive on the lattice moves it by less than two units.
     if (options.primitives == CompileOptions::Primitives::within_reach)
         drop_out_of_reach(*form, bounds, 2 * program.lattice.unit());
+    // Their memory is what the program takes next: fresh pages would cost more than what is written into them.
+    bounds.tokens = std::vector<FormBounds::Token>();
     reserve(*form, program);
     LeafCompiler compiler(program);
     std::vector<CompiledLeaf> leaves(form->leaves.size());

@@ -135,7 +135,7 @@ class Normaliser {
             return;
         }
         const auto index = static_cast<std::uint32_t>(form_.leaves.size());
-        form_.leaves.push_back({primitive, place});
+        form_.leaves.emplace_back(primitive, place);
         form_.tokens.push_back({NormalKind::leaf, negated, 1, index});
         if (!frames_.empty()) ++frames_.back().count;
     }
