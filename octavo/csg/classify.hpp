@@ -6,9 +6,9 @@
 
 // The colours of the eight octants of a cell in one leaf of a program.
 //
-// Octants are classified eight at a time by their 27 corners: a convex constraint is black where all eight corners
-// are inside, and gray where one is and one is not; a half space is white where none is, a quadric where its tangent
-// keeps off. White and black are never wrong. Gray is not yet tight: octants that an edge or a bulge of a body passes
+// Octants are classified eight at a time: a constraint is white or black where it cannot change sides on the way from the
+// middle of an octant to its corners. Where points are asked for, the 27 corners tell black, and of a half space white;
+// of a quadric its tangent. White and black are never wrong. Gray is not yet tight: octants that an edge or a bulge passes
 // by may be left gray, because on the way down a cell too many costs less than the question whether it is needed;
 // second_look.hpp asks it on the last level. Of a body that is small beside the octants, only the bounding box is
 // looked at: most leaves of a large scene, on the levels where all of them are read. Meshes are exact.

@@ -146,7 +146,7 @@ TEST(PointSides, OfPlanesAreExact) {
 
 TEST(PointSides, OfQuadricsAreNeverWrongAndSeldomMissing) {
     tests::RandomSolids random(72);
-    int unknown = 0, missed = 0;
+    int unknown = 0, missed = 0, missed_as_colors = 0, missed_by_bricks = 0, held = 0, held_as_colors = 0;
     for (int round = 0; round < 300; ++round) {
         const Cell cell = random_cell(random, 0, 20);
         const SecondOrderCone cone = random_cone(random, cell);
@@ -154,6 +154,11 @@ TEST(PointSides, OfQuadricsAreNeverWrongAndSeldomMissing) {
         const QuadricSides sides = sides_of(quadric, cell);
         expect_right(cone, cell, sides.points, false);
         unknown += std::popcount(PointColors::all & ~(sides.points.inside | sides.points.outside));
+        const OctantColors colors = octants_of(quadric, cell);
+        const auto all_inside = static_cast<std::uint8_t>(~octants_with_corner(~sides.points.inside));
+        EXPECT_EQ(colors.black & ~all_inside, 0) << "a corner that may lie outside";
+        held += std::popcount(all_inside);
+        held_as_colors += std::popcount(colors.black);
         BrickSurface surface;
         const BrickSides brick = brick_sides(quadric, cell, surface);
         expect_right(cone, cell, brick.corners, false);
@@ -169,14 +174,21 @@ TEST(PointSides, OfQuadricsAreNeverWrongAndSeldomMissing) {
             const BrickCell place{quarter(at[0]), quarter(at[1]), quarter(at[2])};
             const bool outside = exact_side(cone, p) <= 0;
             EXPECT_TRUE(outside || !(sides.missed >> octant & 1));
+            EXPECT_TRUE(outside || !(colors.white >> octant & 1));
             EXPECT_TRUE(outside || !place.in(brick.white));
             EXPECT_TRUE(!outside || exact_side(cone, p) == 0 || !place.in(brick.black));
             missed += sides.missed >> octant & 1;
+            missed_as_colors += colors.white >> octant & 1;
+            missed_by_bricks += place.in(brick.white);
         }
     }
     EXPECT_LT(unknown, 180)
         << "of 48 000: twice the tip of a cone that lies in the middle of a cell, and few others";
     EXPECT_GT(missed, 500);
+    EXPECT_GT(missed_as_colors, 500);
+    EXPECT_GT(missed_by_bricks, 500);
+    EXPECT_GT(held, 100);
+    EXPECT_GT(10 * held_as_colors, 9 * held) << "colours alone allow for the most that mixed terms can add";
 }
 
 TEST(PointSides, OfBoxesAreThoseOfTheirSides) {
