@@ -121,23 +121,31 @@ void merge_coincident(Soup& soup, const Context& context) {
     const std::vector<Coincidence> coincident = find_coincident(soup, context);
     if (context.cancelled() || coincident.empty()) return;
     std::vector<char> dropped(soup.facets.size(), 0);
+    // Neighbours mostly add up the same, which is told from what they add.
+    using Terms = std::vector<std::pair<TransitionId, int>>;
+    Terms terms, known;
+    TransitionId known_sum = no_index;  // nothing is left
     TransitionSum sum;
     for (std::size_t i = 0, end; i < coincident.size(); i = end) {
         const std::uint32_t first = coincident[i].first;
         const bool odd = sorted(soup.facets[first]).odd;
-        sum.clear();
-        sum.add(soup.transitions.of(soup.transition[first]), 1);
+        terms.assign(1, {soup.transition[first], 1});
         for (end = i; end < coincident.size() && coincident[end].first == first; ++end) {
             const std::uint32_t facet = coincident[end].facet;
-            sum.add(soup.transitions.of(soup.transition[facet]),
-                    sorted(soup.facets[facet]).odd == odd ? 1 : -1);
+            terms.push_back({soup.transition[facet], sorted(soup.facets[facet]).odd == odd ? 1 : -1});
             dropped[facet] = 1;
         }
-        const std::span<const Delta> total = sum.normalised();
-        if (total.empty())
+        if (terms != known) {
+            sum.clear();
+            for (const auto& [transition, sign] : terms) sum.add(soup.transitions.of(transition), sign);
+            const std::span<const Delta> total = sum.normalised();
+            known_sum = total.empty() ? no_index : soup.transitions.intern(total);
+            known.swap(terms);
+        }
+        if (known_sum == no_index)
             dropped[first] = 1;
         else
-            soup.transition[first] = soup.transitions.intern(total);
+            soup.transition[first] = known_sum;
     }
     soup.coincident_facets += coincident.size();
     drop_facets(dropped, soup);

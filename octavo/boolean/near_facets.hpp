@@ -9,30 +9,9 @@
 #include <vector>
 
 #include <octavo/boolean/box_tree.hpp>
-#include <octavo/boolean/contacts.hpp>
-#include <octavo/boolean/rounded_points.hpp>
-#include <octavo/boolean/surface.hpp>
+#include <octavo/boolean/near_pairs.hpp>
 
-// The pairs of triangles of the result that rounding may bring into contact, from what is known of the soup's facets.
-//
-// Problem: rounding moves points by 2^-28 of a lattice unit or so, to floats by a unit or two, which can make triangles
-// cross that were apart by as little. To look for such pairs among all triangles of the result would cost more than the
-// set operation: pieces of slivers lie beside each other by the thousand. Idea: triangles lie in facets of the soup, and
-// facets that are farther apart than `contact_reach` did not pass the filter that looked for contacts. Let δ be what
-// rounding moves a coordinate by, and s the reach. A pair of facets is listed here when
-//   - it passed that filter: else a plane has both on its two sides, corners that they share in it, all others farther
-//     from it than s;
-//   - or it shares an edge;
-//   - or it shares just a corner, about which one of the two is *tight*: an edge of its triangles that does not end in
-//     the corner comes within R = 4 δ 2^26 / s of it;
-//   - or it is a facet with itself.
-// No other pair can do harm. While points move from their exact to their rounded places, the first contact of two
-// triangles is one of parts without a common corner (a corner and a triangle, or two edges), which were no more than 2δ
-// apart in any coordinate before. Facets without a common corner are farther apart than that. Facets with one are as
-// near to each other only where the distance from the separating plane, more than s at the far corners and linear
-// between, is less: within R of the corner, and there neither has a part that does not end in it.
-//
-// Polygons merged from pieces of several facets are near what one of these is near.
+// The pairs of triangles of the result that rounding may bring into contact, in the pairs of facets of near_pairs.hpp.
 //
 // Of two facets only those triangles are told that no edge parts (`parts`): seen along an axis, one lies behind its own
 // edge and the other before it, farther than anything moves. Nearly all boxes of a fan of slivers meet, and this leaves an
@@ -42,22 +21,10 @@
 
 namespace octavo::boolean {
 
-/// No coordinate is farther from its exact place, in lattice units: half a step from number to number for the nearest
-/// one, and a whole one where rounding_faults.hpp takes one beside it.
-inline double placing_bound(const exact::Lattice& lattice, Numbers numbers) {
-    return 3 * rounding_bound(lattice, numbers);
-}
-
-/// How near to each other facets must be that find_contacts is to tell of, in lattice units. More makes the filter let
-/// more pairs through, less makes more facets tight.
-inline double contact_reach(const exact::Lattice& lattice, Numbers numbers) {
-    return std::max(0x1p-6, 4 * placing_bound(lattice, numbers));
-}
-
 class NearFacets {
   public:
     /// Facets of the soup, by which the triangles in their planes are meant.
-    using Pair = std::pair<std::uint32_t, std::uint32_t>;
+    using Pair = NearPairs::Pair;
 
     NearFacets(const Surface& surface, const Soup& soup, std::span<const Pair> near,
                const RoundedPoints& rounded, const Context& context);

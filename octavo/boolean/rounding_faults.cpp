@@ -276,7 +276,7 @@ class Mending {
     }
 
     /// Tries the nearest place and those about it; whether it has found a better one. None is farther from the exact
-    /// point than near_facets.hpp allows for.
+    /// point than near_pairs.hpp allows for.
     bool improve(std::size_t number) {
         const PointId id = points_[number];
         const std::vector<std::uint32_t>& star = stars_[number];
