@@ -3,7 +3,7 @@
 
 #include <octavo/base/shared_progress.hpp>
 #include <octavo/bsp_octree/build.hpp>
-#include <octavo/bsp_octree/resolve_surface.hpp>
+#include <octavo/bsp_octree/self_contact.hpp>
 #include <octavo/bsp_octree/subdivide.hpp>
 #include <octavo/classic/closed_surface.hpp>
 #include <octavo/classic/crossing.hpp>
@@ -20,8 +20,9 @@ class WindingColors {
   public:
     using State = std::int32_t;
 
-    /// `facets` by source triangle.
-    explicit WindingColors(std::span<const classic::Facet> facets) : facets_(facets) {}
+    /// `facets` by source triangle; `separates` when they have 0 before and 1 behind them everywhere.
+    WindingColors(std::span<const classic::Facet> facets, bool separates)
+        : facets_(facets), separates_(separates) {}
 
     std::array<State, 8> octants(const octree::Cell& cell, std::span<const bsp::Fragment> fragments,
                                  State winding) {
@@ -51,8 +52,15 @@ class WindingColors {
         return winding > 0 ? bsp::Label::in : bsp::Label::out;
     }
 
+    NodeRef leaf(Workspace& workspace, const octree::Cell& cell, std::span<const bsp::Fragment> fragments,
+                 State winding) const {
+        return separates_ ? workspace.make_leaf(fragments)
+                          : workspace.make_resolved_leaf(cell, fragments, winding);
+    }
+
   private:
     std::span<const classic::Facet> facets_;
+    bool separates_;
 };
 
 /// The facets of a mesh by index; those without area are left as they are and not used.
@@ -69,8 +77,8 @@ bool keeps_a_unit_free(const mesh::LatticeMesh& mesh) {
     });
 }
 
-/// Builds from a surface that separates outside from inside.
-Result<Built> build_from(const mesh::LatticeMesh& lattice_mesh, const Options& options,
+/// Builds from a closed surface; `separates` when its facets have 0 before and 1 behind them everywhere.
+Result<Built> build_from(const mesh::LatticeMesh& lattice_mesh, bool separates, const Options& options,
                          const Context& context, std::shared_ptr<Store> store) {
     Result<std::vector<classic::Facet>> facets = classic::facets_of(lattice_mesh);
     if (!facets) return facets.error();
@@ -88,10 +96,13 @@ Result<Built> build_from(const mesh::LatticeMesh& lattice_mesh, const Options& o
     }
     const std::vector<classic::Facet> sources = by_source(*facets, lattice_mesh.triangles.size());
     Workspace workspace(*store, pool, options, context, "octree");
-    Subdivider<WindingColors> subdivide(workspace, WindingColors(sources));
+    Subdivider<WindingColors> subdivide(workspace, WindingColors(sources, separates));
     const NodeRef root = subdivide(octree::Cell::root(), fragments, 0);
     if (context.cancelled()) return Context::cancelled_error();
     built.octree = BspOctree(lattice_mesh.lattice, options, std::move(store), root);
+    built.report.resolved = workspace.resolved_leaves() > 0;
+    if (root.is_white() && built.report.resolved)
+        built.report.warnings.push_back("the surface winds about nothing; its facets may look inwards");
     return built;
 }
 
@@ -117,22 +128,19 @@ Result<Built> build(const mesh::Mesh& mesh, const exact::Lattice& lattice, const
     if (!open.empty()) return classic::open_surface_error(open);
     if (context.cancelled()) return Context::cancelled_error();
 
-    std::optional<mesh::LatticeMesh> resolved;
+    bool separates = true;
     if (options.surface == SurfaceCheck::resolve) {
         context.report("surface", 0);
-        Result<std::optional<mesh::LatticeMesh>> result = resolve(snapped->mesh, context);
-        if (!result) return result.error();
-        resolved = std::move(*result);
+        const Result<bool> meets = may_meet_itself(snapped->mesh, context);
+        if (!meets) return meets.error();
+        separates = !*meets;
     }
     context.report("octree", 0.4);
-    Result<Built> built = build_from(resolved ? *resolved : snapped->mesh, options.octree,
+    Result<Built> built = build_from(snapped->mesh, separates, options.octree,
                                      part_of(context, "octree", 0.4, 1), std::move(store));
     if (!built) return built;
     built->report.moved_vertices = snapped->report.moved_vertices;
     built->report.largest_displacement = snapped->report.largest_displacement;
-    built->report.resolved = resolved.has_value();
-    if (resolved && resolved->triangles.empty() && !mesh.triangles.empty())
-        built->report.warnings.push_back("the surface winds about nothing; its facets may look inwards");
     return built;
 }
 

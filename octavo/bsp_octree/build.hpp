@@ -20,14 +20,16 @@
 // steps do not need siblings.
 //
 // A BSP tree labels regions by the faces that bound them, which is right for a surface that bounds a solid and wrong
-// for one that crosses or covers itself. So the surface is checked first, and resolved by a Boolean of one operand
-// where it is no solid's: inside is where the winding number is positive, as everywhere in Octavo.
+// for one that crosses or covers itself. So the surface is checked first, and where it may be no solid's, regions are
+// labelled by winding numbers: inside is where they are positive, as everywhere in Octavo. Planes stay those of facets, and
+// no vertex is rounded. (Resolving by a Boolean first, rounded to the lattice, was tried and lost: slits thinner than a lattice unit
+// close, or cross anew in every round; docs/methods/bsp_octree.md.)
 // Source: algorithm 3.1 in Argüelles, BSP-OctTree.
 
 namespace octavo::bsp_octree {
 
 enum class SurfaceCheck : std::uint8_t {
-    resolve,  ///< look for self-intersections and overlaps, and resolve them
+    resolve,  ///< look for self-intersections and overlaps, and take the solid for where it winds about
     trust,    ///< the caller knows that the closed surface does not meet itself; wrong if it does
 };
 
@@ -40,7 +42,7 @@ struct BuildReport {
     std::size_t facets_without_area = 0;
     std::size_t moved_vertices = 0;   ///< by snapping
     double largest_displacement = 0;  ///< by snapping, in world units
-    bool resolved = false;            ///< the surface met itself
+    bool resolved = false;            ///< the surface had other windings than 0 before and 1 behind it
     std::vector<std::string> warnings;
 };
 

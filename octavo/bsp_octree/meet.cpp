@@ -24,6 +24,11 @@ class TreeColors {
         return in ? bsp::Label::in : bsp::Label::out;
     }
 
+    NodeRef leaf(Workspace& workspace, const octree::Cell&, std::span<const bsp::Fragment> fragments,
+                 State) const {
+        return workspace.make_leaf(fragments);
+    }
+
   private:
     const Store& store_;
     NodeRef first_, second_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include <octavo/bsp/classify.hpp>
 #include <octavo/bsp_octree/subdivide.hpp>
 #include <octavo/exact/intersect.hpp>
 
@@ -124,6 +125,24 @@ NodeRef Workspace::make_leaf(std::span<const Fragment> fragments) {
     const std::size_t begin = store_.nodes.size();
     builder_.build(pool_, store_.planes, fragments, store_.nodes);
     return store_.add_leaf(begin);
+}
+
+NodeRef Workspace::make_resolved_leaf(const octree::Cell& cell, std::span<const Fragment> fragments,
+                                      std::int32_t winding) {
+    const std::size_t begin = store_.nodes.size();
+    builder_.build(pool_, store_.planes, fragments, store_.nodes);
+    const std::span<bsp::Node> nodes = std::span(store_.nodes).subspan(begin);
+    if (winding_labels_.label(pool_, cell, fragments, nodes, winding)) return store_.add_leaf(begin);
+
+    ++resolved_leaves_;
+    const FragmentPool::Mark mark = pool_.mark();
+    Fragments faces;
+    extractor_.extract(pool_, cell, {nodes}, faces);
+    const bsp::Label label = bsp::label_of_uniform_cell({nodes}, cell, store_.planes);
+    store_.nodes.resize(begin);
+    const NodeRef node = faces.empty() ? NodeRef::uniform(label) : make_leaf(faces);
+    pool_.release(mark);
+    return node;
 }
 
 NodeRef Workspace::make_gray(const octree::Cell& cell, const Octants& octants) {

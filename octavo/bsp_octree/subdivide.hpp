@@ -10,6 +10,7 @@
 #include <octavo/bsp/boundary.hpp>
 #include <octavo/bsp/build.hpp>
 #include <octavo/bsp/fragment.hpp>
+#include <octavo/bsp/winding_labels.hpp>
 #include <octavo/bsp_octree/cell_progress.hpp>
 #include <octavo/bsp_octree/options.hpp>
 #include <octavo/bsp_octree/store.hpp>
@@ -58,6 +59,12 @@ class Workspace {
     bool is_futile(std::span<const bsp::Fragment> fragments, const std::array<Fragments, 8>& octants) const;
 
     NodeRef make_leaf(std::span<const bsp::Fragment> fragments);
+    /// The node of a cell where parts of input triangles may cross, cover and nest one another: a leaf, or uniform. `winding` is
+    /// that of the low corner, displaced (bsp/winding_labels.hpp).
+    NodeRef make_resolved_leaf(const octree::Cell& cell, std::span<const bsp::Fragment> fragments,
+                               std::int32_t winding);
+    /// Of those, the ones where they did.
+    std::uint64_t resolved_leaves() const { return resolved_leaves_; }
     /// The gray node of these octants, or what it is condensed to.
     NodeRef make_gray(const octree::Cell& cell, const Octants& octants);
 
@@ -77,6 +84,8 @@ class Workspace {
     CellProgress progress_;
     bsp::TreeBuilder builder_;
     bsp::BoundaryExtractor extractor_;
+    bsp::WindingLabels winding_labels_;
+    std::uint64_t resolved_leaves_ = 0;
     std::vector<bsp::PlaneId> planes_;
     // Lists are kept, since making them anew for every cell took a tenth of the time.
     std::array<Fragments, 2> by_x_;
@@ -88,6 +97,7 @@ class Workspace {
 ///   State         what it knows about a cell
 ///   octants(cell, fragments, state) → std::array<State, 8>
 ///   label(cell, state)              of a cell without faces
+///   leaf(workspace, cell, fragments, state)
 template <class Colors>
 class Subdivider {
   public:
@@ -101,7 +111,7 @@ class Subdivider {
         if (fragments.empty() || workspace_.is_simple(cell, fragments)) {
             workspace_.finish(cell);
             return fragments.empty() ? NodeRef::uniform(colors_.label(cell, state))
-                                     : workspace_.make_leaf(fragments);
+                                     : colors_.leaf(workspace_, cell, fragments, state);
         }
 
         const bsp::FragmentPool::Mark mark = workspace_.pool().mark();
@@ -109,7 +119,7 @@ class Subdivider {
         NodeRef result;
         if (workspace_.is_futile(fragments, octants)) {
             workspace_.finish(cell);
-            result = workspace_.make_leaf(fragments);
+            result = colors_.leaf(workspace_, cell, fragments, state);
         } else {
             const std::array<State, 8> states = colors_.octants(cell, fragments, state);
             Octants children;
