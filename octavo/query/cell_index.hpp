@@ -79,12 +79,7 @@ class CellIndex {
         const int begun = std::popcount(masks[2] << (brick_cells - 1 - cell));
         return {kind, words[head_words - 1 + static_cast<std::size_t>(begun)]};
     }
-    Entry find(std::uint64_t code) const {
-        const Kind kind = kind_of(code);
-        if (kind == Kind::white || kind == Kind::black) return {kind, 0};
-        return find_below(top(code), code);
-    }
-    /// The same from the entry of the table on.
+    /// All of them, from the entry of the table on: the leaf.
     Entry find_below(Entry entry, std::uint64_t code) const {
         for (int level = top_level_; entry.kind == Kind::brick; level += brick_levels) {
             prefetch_records(entry);
