@@ -15,29 +15,36 @@ bool in_universe(exact::Point p) {
 
 }  // namespace
 
-Result<std::vector<Facet>> facets_of(const mesh::LatticeMesh& mesh) {
+Status check_places(const mesh::LatticeMesh& mesh) {
     for (const exact::Point& point : mesh.points)
         if (!in_universe(point))
             return Error{ErrorCode::bad_input,
                          "point " + std::to_string(&point - mesh.points.data()) +
                              " of the mesh lies outside the lattice's universe",
                          {}};
+    for (std::uint32_t index = 0; index < mesh.triangles.size(); ++index) {
+        for (const mesh::VertexIndex vertex : mesh.triangles[index]) {
+            if (vertex < mesh.points.size()) continue;
+            Error error{ErrorCode::bad_input,
+                        "triangle " + std::to_string(index) + " names vertex " + std::to_string(vertex) +
+                            " of " + std::to_string(mesh.points.size()),
+                        {}};
+            error.place.faces = {index};
+            return error;
+        }
+    }
+    return Done{};
+}
+
+Result<std::vector<Facet>> facets_of(const mesh::LatticeMesh& mesh) {
+    if (const Status placed = check_places(mesh); !placed) return placed.error();
     std::vector<Facet> facets;
     facets.reserve(mesh.triangles.size());
     for (std::uint32_t index = 0; index < mesh.triangles.size(); ++index) {
         Facet facet;
         facet.source = index;
         for (std::size_t i = 0; i < 3; ++i) {
-            const mesh::VertexIndex vertex = mesh.triangles[index][i];
-            if (vertex >= mesh.points.size()) {
-                Error error{ErrorCode::bad_input,
-                            "triangle " + std::to_string(index) + " names vertex " + std::to_string(vertex) +
-                                " of " + std::to_string(mesh.points.size()),
-                            {}};
-                error.place.faces = {index};
-                return error;
-            }
-            const exact::Point p = mesh.points[vertex];
+            const exact::Point p = mesh.points[mesh.triangles[index][i]];
             facet.corner[i] = {p.x, p.y, p.z};
         }
         for (std::size_t axis = 0; axis < 3; ++axis) {

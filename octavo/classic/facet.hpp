@@ -43,8 +43,10 @@ inline Normal normal_of(const FacetCorners& corner) {
 
 inline Normal normal_of(const Facet& facet) { return normal_of(facet.corner); }
 
-/// The facets of a mesh, in its order, without those that have no area.
 /// Errors: bad_input when a triangle names a vertex that is not there, or a point lies outside the universe.
+Status check_places(const mesh::LatticeMesh& mesh);
+
+/// The facets of a mesh, in its order, without those that have no area. Errors: those of check_places.
 Result<std::vector<Facet>> facets_of(const mesh::LatticeMesh& mesh);
 
 /// A mesh of facets none of which has area bounds nothing: an octree of it would be white, and look like an answer.

@@ -13,6 +13,7 @@ namespace octavo::query {
 Result<ClosestQuery> ClosestQuery::build(const mesh::LatticeMesh& mesh, const ClosestOptions& options,
                                          const Context& context) {
     if (mesh.triangles.empty()) return Error{ErrorCode::bad_input, "the mesh has no facets", {}};
+    if (const Status placed = classic::check_places(mesh); !placed) return placed.error();
     ClosestQuery query;
     if (options.sign == ClosestOptions::Sign::inside_negative) {
         auto inside = InsideQuery::build(mesh, options.inside, context);
@@ -49,12 +50,15 @@ Closest ClosestQuery::answer(Vec3 world, const FixedPoint& q, const NearestTrian
     // Differences and minors of lattice points are exact doubles.
     const Vec3 n = octavo::cross(corner(1) - corner(0), corner(2) - corner(0));
     if (!(n == Vec3{})) closest.normal = (1 / length(n)) * n;
-    double distance = side == Side::on ? 0 : std::sqrt(nearest.feature.squared_distance) * lattice_.unit();
+    // A point on the surface may have been rounded off it; one on what closes an open surface may be far from all facets.
+    double units = std::sqrt(nearest.feature.squared_distance);
+    if (side == Side::on && units <= FixedPoint::resolution) units = 0;
+    double distance = units * lattice_.unit();
     if (q.scaled_down) {
         const Vec3 away = world - closest.point;
         distance = std::hypot(away.x, away.y, away.z);
     }
-    closest.distance = side == Side::inside ? -distance : distance;
+    closest.distance = side == Side::inside && distance > 0 ? -distance : distance;
     return closest;
 }
 

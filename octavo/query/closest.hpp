@@ -20,7 +20,8 @@
 // exactly (triangle_distance.hpp). The sign is that of InsideQuery: negative inside (winding number > 0).
 //
 // Exact means: for the lattice mesh and the point to 62 bits (FixedPoint), the triangle is a nearest one; the distance
-// is its true distance rounded, to a few units in the last place of a double.
+// is its true distance rounded, to a few units in the last place of a double. The sign is that of the point itself, to
+// the last bit; nearer to the surface than 2^-35 lattice units the distance may come out as 0.
 //
 // Batches sort their points by Morton key, and the distance of one bounds that of the next.
 
@@ -40,13 +41,16 @@ struct ClosestOptions {
     /// Without a sign distances are positive everywhere, the mesh may be open, and half of the memory is saved.
     enum class Sign : std::uint8_t { inside_negative, none };
     Sign sign = Sign::inside_negative;
-    /// The sign costs a fifth of the distance at most, so it may take a little longer for two thirds of the memory.
+    /// The sign costs a fifth of the distance at most, so it may take a little longer for two thirds of the memory. Where
+    /// OpenPolicy::winding closes an open surface, the sign is that of the closed solid; distances are to the facets of the
+    /// mesh alone, and positive on what closes it.
     InsideOptions inside{.leaf_facets = 8};
 };
 
 class ClosestQuery {
   public:
-    /// Errors: bad_input for a mesh without facets; those of InsideQuery when signs are wanted.
+    /// Errors: bad_input for a mesh without facets, and those of classic::check_places; those of InsideQuery when signs
+    /// are wanted.
     static Result<ClosestQuery> build(const mesh::LatticeMesh& mesh, const ClosestOptions& options = {},
                                       const Context& context = {});
     static Result<ClosestQuery> build(const mesh::Mesh& mesh, const ClosestOptions& options = {},
@@ -62,6 +66,7 @@ class ClosestQuery {
     std::size_t memory_bytes() const;
 
   private:
+    ClosestQuery() = default;
     Closest answer(Vec3 world, const FixedPoint& q, const NearestTriangle& nearest, Side side) const;
 
     exact::Lattice lattice_;

@@ -25,12 +25,17 @@ Vec3 doubled_place(const BpOctree& tree, Vec3 point) {
 }
 
 double distance_to_box(const CellBox& box, Vec3 place) {
-    double square = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double beyond = std::max({box.low[axis] - place[axis], place[axis] - box.high[axis], 0.0});
-        square += beyond * beyond;
-    }
-    return std::sqrt(square);
+    Vec3 beyond;
+    for (int axis = 0; axis < 3; ++axis)
+        beyond[axis] = std::max({box.low[axis] - place[axis], place[axis] - box.high[axis], 0.0});
+    return std::hypot(beyond.x, beyond.y, beyond.z);
+}
+
+/// For points so far out that products overflow: seen from there the universe is a point, but for a few roundings.
+double distance_from_afar(const BpOctree& tree, Vec3 point) {
+    const Vec3 away = 0.25 * point - 0.25 * tree.mesh.lattice.to_world({0, 0, 0});
+    return std::min(4 * (1 - 0x1p-40) * std::hypot(away.x, away.y, away.z),
+                    std::numeric_limits<double>::max());
 }
 
 /// How far the place lies beyond the plane of a node with this cell; negative within.
@@ -62,6 +67,8 @@ double EnvelopeDistance::operator()(Vec3 point) const {
     if (std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z)) return std::nan("");
     if (!is_finite(point)) return std::numeric_limits<double>::infinity();
     const Vec3 place = doubled_place(tree_, point);
+    const double size = std::fabs(place.x) + std::fabs(place.y) + std::fabs(place.z) + 0x1p28;
+    if (size > 0x1p900) return distance_from_afar(tree_, point);
     const auto farther = [](const Open& a, const Open& b) {
         return a.bound != b.bound ? a.bound > b.bound : a.node > b.node;
     };
@@ -73,7 +80,6 @@ double EnvelopeDistance::operator()(Vec3 point) const {
         open.pop();
         if (tree_.nodes[nearest.node] != Node::split || nearest.cell.level >= level_) {
             // Roundings of places up to 2^53 half units, and of the few operations, must not lift the bound.
-            const double size = std::fabs(place.x) + std::fabs(place.y) + std::fabs(place.z) + 0x1p28;
             return std::max(0.0, nearest.bound - 0x1p-45 * size) * 0.5 * tree_.mesh.lattice.unit();
         }
         for (int i = 0; i < 8; ++i) {
@@ -125,8 +131,8 @@ std::optional<LeafDistance> distance_in_leaf(const BpOctree& tree, Vec3 point) {
     double to_wall = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis)
         to_wall = std::min({to_wall, place[axis] - box.low[axis], box.high[axis] - place[axis]});
-    // A unit in the last places is given up, so that rounding never claims too much.
-    answer.is_exact = 2 * units <= to_wall * (1 - 0x1p-40);
+    // A little is given up, so that rounding never claims too much: of the place, by 2^-26, and of the distance.
+    answer.is_exact = 2 * units <= to_wall * (1 - 0x1p-40) - 0x1p-25;
     return answer;
 }
 

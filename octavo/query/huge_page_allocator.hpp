@@ -27,7 +27,7 @@ struct HugePageAllocator {
 
     T* allocate(std::size_t count) {
         const std::size_t bytes = count * sizeof(T);
-        if (bytes < page) return static_cast<T*>(::operator new(bytes));
+        if (bytes < page) return static_cast<T*>(::operator new(bytes, alignment));
         void* memory = nullptr;
         if (posix_memalign(&memory, page, bytes) != 0) throw std::bad_alloc();
 #ifdef __linux__
@@ -37,7 +37,7 @@ struct HugePageAllocator {
     }
     void deallocate(T* memory, std::size_t count) {
         if (count * sizeof(T) < page)
-            ::operator delete(memory);
+            ::operator delete(memory, alignment);
         else
             std::free(memory);
     }
@@ -49,6 +49,8 @@ struct HugePageAllocator {
 
   private:
     static constexpr std::size_t page = std::size_t{2} << 20;
+    static constexpr std::align_val_t alignment{alignof(T)};
+    static_assert(alignof(T) <= page);
 };
 
 }  // namespace octavo::query

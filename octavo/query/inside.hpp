@@ -37,8 +37,8 @@ namespace octavo::query {
 
 enum class Side : std::int8_t {
     inside = -1,
-    on =
-        0,  ///< on a facet of the surface: also on one without area, and on one inside the solid where shells overlap
+    /// On a facet of the surface: also on one without area, and on one inside the solid where shells overlap.
+    on = 0,
     outside = 1,
 };
 
@@ -85,6 +85,8 @@ class InsideQuery {
     std::size_t reference_count() const { return reference_count_; }
 
   private:
+    InsideQuery() = default;
+
     /// A point in the universe: where it is (LatticePlace) and the Morton code of its cell of the last level. Blocks of
     /// them are not worth initialising.
     struct Located {

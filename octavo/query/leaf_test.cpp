@@ -50,22 +50,23 @@ int exact_sign(const MixedPoint& point, const std::array<std::int64_t, 3>& coeff
     return static_cast<int>(form.exact_at(point.place.world));
 }
 
-/// The same by a filter first. Differences round once (26 bits and a part below one), products once, the sums twice,
-/// 2^-53 each of terms that `bulk` adds up: 4 and a little; 8 is proved. A part that underflowed is off by 2^-1074
-/// at most, which the smallest normal number covers for coefficients of 54 bits.
+/// The same by a filter first. Differences round once (26 bits and a part of at most one), products once, the sums
+/// twice, 2^-53 each of terms that `bulk` adds up: 4 and a little; 8 is proved. A part is off by 2^-54 at most, however
+/// small the difference, so `bulk` also holds the coefficients of free axes.
 inline int sign_at(const MixedPoint& point, const std::array<std::int64_t, 3>& coefficients,
                    const Corner& anchor) {
     double sum = 0, bulk = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto coefficient = static_cast<double>(coefficients[axis]);
         const double difference =
             point.is_free(axis)
                 ? static_cast<double>(point.place.whole[axis] - anchor[axis]) + point.place.part[axis]
                 : static_cast<double>(point.fixed[axis] - anchor[axis]);
-        const double term = static_cast<double>(coefficients[axis]) * difference;
+        const double term = coefficient * difference;
         sum += term;
-        bulk += std::fabs(term);
+        bulk += std::fabs(term) + (point.is_free(axis) ? std::fabs(coefficient) : 0);
     }
-    if (std::fabs(sum) > 8 * 0x1p-53 * bulk + 0x1p-960) [[likely]]
+    if (std::fabs(sum) > 8 * 0x1p-53 * bulk) [[likely]]
         return sum > 0 ? 1 : -1;
     return exact_sign(point, coefficients, anchor);
 }

@@ -69,9 +69,7 @@ Result<Side> StoredInside::operator()(Vec3 point) {
     for (const mesh::Triangle& t : (*near)->triangles) {
         const auto& points = (*near)->points;
         if (!bp_octree::TriangleInCells(points[t[0]], points[t[1]], points[t[2]]).meets(box)) continue;
-        const classic::FacetCorners facet = doubled(**near, t);
-        // Facets without area bound nothing, and every edge of theirs is an edge of another.
-        if (!classic::normal_of(facet).is_zero()) facets.push_back(facet);
+        facets.push_back(doubled(**near, t));
     }
     std::vector<std::uint32_t> all(facets.size());
     std::iota(all.begin(), all.end(), 0U);

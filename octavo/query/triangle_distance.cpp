@@ -36,6 +36,18 @@ std::array<int128, 3> cross(const Difference& e, const Difference& q) {
             wide(e[0]) * q[1] - wide(e[1]) * q[0]};
 }
 
+/// n · (u × v), for a normal, an edge and a difference, in either order of these.
+WideInt<3> determinant(const Difference& n, const Difference& u, const Difference& v) {
+    static_assert(54 + 63 + 26 + 1 + 2 < 191);
+    const std::array<int128, 3> w{wide(u[1]) * v[2] - wide(u[2]) * v[1],
+                                  wide(u[2]) * v[0] - wide(u[0]) * v[2],
+                                  wide(u[0]) * v[1] - wide(u[1]) * v[0]};
+    WideInt<3> sum;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        sum += exact::multiply<3>(WideInt<2>(w[axis]), WideInt<2>(n[axis]));
+    return sum;
+}
+
 /// Whether a b − c d > 0; the factors are below 2^92.
 bool product_exceeds(int128 a, int128 b, int128 c, int128 d) {
     const double first = static_cast<double>(a) * static_cast<double>(b);
@@ -155,7 +167,7 @@ FixedPoint FixedPoint::of(Vec3 world, const exact::Lattice& lattice) {
     const Vec3 scaled = (1 / lattice.unit()) * world;
     const double farthest = std::max({std::fabs(scaled.x), std::fabs(scaled.y), std::fabs(scaled.z)});
     FixedPoint fixed;
-    if (farthest <= 0x1p53) {
+    if (farthest <= 0x1p61) {
         std::array<std::int64_t, 3> whole{};
         std::uint64_t most = 0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -172,18 +184,17 @@ FixedPoint FixedPoint::of(Vec3 world, const exact::Lattice& lattice) {
         }
         return fixed;
     }
-    // Here doubles are whole numbers of units; more than 62 bits of them are given up.
+    // From the lattice's origin, in quarters, which no difference of doubles overflows.
     fixed.shift = 0;
+    fixed.scaled_down = true;
     Vec3 place;
     for (int axis = 0; axis < 3; ++axis) {
-        const double finite = std::clamp(scaled[axis], -0x1p1000, 0x1p1000);
-        place[axis] = finite - static_cast<double>(lattice.origin()[static_cast<std::size_t>(axis)]);
+        const auto origin = static_cast<double>(lattice.origin()[static_cast<std::size_t>(axis)]);
+        place[axis] = 0.25 * world[axis] - 0.25 * (origin * lattice.unit());
     }
-    const double reach = std::max({std::fabs(place.x), std::fabs(place.y), std::fabs(place.z)});
-    fixed.scaled_down = reach > 0x1p61;
-    const double factor = fixed.scaled_down ? 0x1p61 / reach : 1;
+    const int reach = std::ilogb(std::max({std::fabs(place.x), std::fabs(place.y), std::fabs(place.z)}));
     for (int axis = 0; axis < 3; ++axis)
-        fixed.x[static_cast<std::size_t>(axis)] = std::llround(place[axis] * factor);
+        fixed.x[static_cast<std::size_t>(axis)] = std::llround(std::scalbn(place[axis], 61 - reach));
     return fixed;
 }
 
@@ -261,9 +272,18 @@ Vec3 nearest_point(const FixedPoint& q, const NearestFeature& feature) {
         const double t = static_cast<double>(dot(ab, qa)) / static_cast<double>(dot(ab, ab)) * step;
         return base + t * to_vector(ab);
     }
-    const Difference n = normal(ab, edge(a, feature.corners[2]));
-    const double t = static_cast<double>(dot(n, qa)) / static_cast<double>(dot(n, n)) * step;
-    return q.approximation() - t * to_vector(n);
+    const Difference ac = edge(a, feature.corners[2]), n = normal(ab, ac);
+    const double length2 = static_cast<double>(dot(n, n));
+    if (std::fabs(static_cast<double>(qa[0])) + std::fabs(static_cast<double>(qa[1])) +
+            std::fabs(static_cast<double>(qa[2])) <
+        0x1p28 / step) {
+        const double t = static_cast<double>(dot(n, qa)) / length2 * step;
+        return q.approximation() - t * to_vector(n);
+    }
+    // From afar the foot would be lost in the difference of the point and the way to it, so it is found in the triangle.
+    const double beta = to_double(determinant(n, qa, ac)) / length2 * step,
+                 gamma = to_double(determinant(n, ab, qa)) / length2 * step;
+    return base + beta * to_vector(ab) + gamma * to_vector(ac);
 }
 
 }  // namespace octavo::query

@@ -17,8 +17,8 @@
 // integer expressions (the order of tests is that of C. Ericson, Real-Time Collision Detection, 2005, 5.1.5). Squared
 // distances are fractions; they are compared as doubles when these differ by more than their error, else exactly.
 //
-// Rule: shift is 36 for points in the universe, so a point is rounded by less than 2^-36 lattice units, 2^-62 of the
-// universe; points farther out keep 62 bits, points beyond 2^62 units keep their direction.
+// Rule: shift is 36 for points in the universe, so each coordinate is rounded by at most 2^-37 lattice units, 2^-63 of the
+// universe; points farther out keep 62 bits of the largest coordinate, points beyond 2^61 units keep their direction.
 //
 // Widths: differences q − a 63, edges 26, their scalar products 91, edge × difference 90, normal · difference 118;
 // squared distances: vertex 128, edge 182 over 54, face 236 over 108; crosswise products 344.
@@ -29,7 +29,10 @@ namespace octavo::query {
 struct FixedPoint {
     std::array<std::int64_t, 3> x{};
     int shift = 36;
-    bool scaled_down = false;  ///< beyond 2^62 units: only the direction is right
+    bool scaled_down = false;  ///< beyond 2^61 units: only the direction is right
+
+    /// No point of the universe is moved so far, in lattice units.
+    static constexpr double resolution = 0x1p-36;
 
     /// `world` must be finite.
     static FixedPoint of(Vec3 world, const exact::Lattice& lattice);

@@ -155,6 +155,64 @@ TEST(Closest, IsZeroWhereTheInsideTestSaysOn) {
     }
 }
 
+TEST(Closest, NearerThanItsPointsAreKnownItIsZeroAndNeverMinusZero) {
+    const ClosestQuery query = *ClosestQuery::build(tests::box({0, 0, 0}, {4, 4, 4}));
+    for (const double x : {-0x1p-61, 0x1p-61}) {
+        const double distance = query({x, 2, 1.5}).distance;
+        EXPECT_EQ(distance, 0);
+        EXPECT_FALSE(std::signbit(distance));
+    }
+}
+
+TEST(Closest, WhatClosesAnOpenSurfaceHasNoDistance) {
+    mesh::Mesh open = tests::box({0, 0, 0}, {4, 4, 4});
+    open.triangles.resize(open.triangles.size() - 2);  // the side at z = 4
+    ClosestOptions options;
+    options.inside.open = classic::OpenPolicy::winding;
+    const ClosestQuery query = *ClosestQuery::build(open, options);
+    EXPECT_EQ(query({2, 2, 3.5}).distance, -2);
+    EXPECT_EQ(query({2, 2, 4}).distance, 2);
+    EXPECT_EQ(query({0, 2, 2}).distance, 0);
+}
+
+/// A facet without area or length.
+void add_point(mesh::LatticeMesh& mesh, exact::Point point) {
+    const auto n = static_cast<mesh::VertexIndex>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), 3, point);
+    mesh.triangles.push_back({n, n + 1, n + 2});
+}
+
+TEST(Closest, FarPointsKeepAllBitsThatFitAndThenTheirDirection) {
+    ClosestOptions options;
+    options.sign = ClosestOptions::Sign::none;
+    mesh::LatticeMesh mesh;
+    add_point(mesh, {100, 0, 5});
+    add_point(mesh, {100, 2, 5});
+    const ClosestQuery aside = *ClosestQuery::build(mesh, options);
+    for (const double x : {0x1p53, 0x1p53 + 2, 0x1p57}) {
+        EXPECT_EQ(aside({x, 0.6, 5}).triangle, 0u) << x;
+        EXPECT_EQ(aside({x, 1.4, 5}).triangle, 1u) << x;
+    }
+    mesh = {};
+    mesh.lattice = *exact::Lattice::from_parts(-23, {});
+    add_point(mesh, {4 << 23, 0, 0});
+    add_point(mesh, {3 << 23, 3 << 23, 0});
+    const ClosestQuery beyond = *ClosestQuery::build(mesh, options);
+    for (const double far : {1e290, 1e302, 1e308}) {
+        EXPECT_EQ(beyond({far, 1e-6 * far, 0}).triangle, 0u) << far;
+        EXPECT_EQ(beyond({far, far, 0}).triangle, 1u) << far;
+    }
+}
+
+TEST(Closest, FootsOfFarPointsAreOnTheSurface) {
+    const ClosestQuery query = *ClosestQuery::build(tests::bumpy_sphere(0, 0));  // an octahedron of radius 1
+    for (const double far : {1e3, 1e6, 1e9, 1e12, 1e15}) {
+        const Closest closest = query(Vec3{far, far, far} + Vec3{0.1, 0.05, -0.15});
+        EXPECT_EQ(closest.feature, Feature::face) << far;
+        EXPECT_NEAR(closest.point.x + closest.point.y + closest.point.z, 1, 1e-7) << far;
+    }
+}
+
 TEST(Closest, PointsThatAreNotFiniteAndPointsFarAwayAreAnsweredByRule) {
     auto query = ClosestQuery::build(tests::box({0, 0, 0}, {4, 4, 4}));
     ASSERT_TRUE(query.has_value());
@@ -179,6 +237,12 @@ TEST(Closest, OpenMeshesHaveDistancesWithoutASignOnly) {
     options.sign = ClosestOptions::Sign::none;
     EXPECT_TRUE(ClosestQuery::build(mesh, options).has_value());
     EXPECT_EQ(ClosestQuery::build(mesh::LatticeMesh{}, options).error().code, ErrorCode::bad_input);
+    mesh::LatticeMesh lying = tests::on_lattice(tests::bumpy_sphere(1));
+    lying.triangles.back()[1] = 1000;
+    EXPECT_EQ(ClosestQuery::build(lying, options).error().place.faces.size(), 1u);
+    lying.triangles.pop_back();
+    lying.points[0].x = 1 << 30;
+    EXPECT_EQ(ClosestQuery::build(lying, options).error().code, ErrorCode::bad_input);
 }
 
 }  // namespace

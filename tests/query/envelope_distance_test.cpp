@@ -52,6 +52,16 @@ TEST_F(Envelopes, BoundsNeverExceedTheDistanceAndGrowWithTheLevel) {
     EXPECT_TRUE(std::isinf(EnvelopeDistance(tree_, 2)({0, -std::numeric_limits<double>::infinity(), 0})));
 }
 
+TEST_F(Envelopes, BoundsNearlyTheDistanceFromAnyFarPoint) {
+    const EnvelopeDistance bound(tree_, 2);
+    for (const double far : {1e6, 1e100, 1e146, 1e150, 1e270, 1e300, 1.7e308}) {
+        EXPECT_LE(bound({far, 0, 0}), far);
+        EXPECT_GE(bound({far, 0, 0}), far * (1 - 1e-5));
+    }
+    const double most = std::numeric_limits<double>::max();
+    EXPECT_EQ(bound({most, most, -most}), most);
+}
+
 TEST_F(Envelopes, ALeafIsRightWhereItSaysSoAndNeverTooNear) {
     int answers = 0, exact = 0;
     std::mt19937_64 random(10);

@@ -220,6 +220,42 @@ TEST(InsideQuery, AgreesWithRationalRaysOnSpheres) {
     EXPECT_GT(std::min({tally.inside, tally.on, tally.outside}), count / 10);
 }
 
+/// Just below a coordinate of 0 the place of a point in its unit takes more bits than a double has.
+TEST(InsideQuery, IsExactJustBelowTheWorldsOrigin) {
+    mesh::Mesh tetrahedron;
+    tetrahedron.vertices = {{0, 0, 2}, {1, -1, -2}, {-1, 1, -2}, {2, 2, 0}};
+    tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    mesh::Mesh many = tetrahedron;
+    for (int step = 0; step < 3; ++step) {
+        std::vector<mesh::Triangle> parts;
+        for (const mesh::Triangle& t : many.triangles) {
+            const auto n = static_cast<mesh::VertexIndex>(many.vertices.size());
+            for (std::size_t i = 0; i < 3; ++i)
+                many.vertices.push_back(0.5 * (many.vertices[t[i]] + many.vertices[t[(i + 1) % 3]]));
+            parts.insert(parts.end(),
+                         {{t[0], n, n + 2}, {n, t[1], n + 1}, {n + 2, n + 1, t[2]}, {n, n + 1, n + 2}});
+        }
+        many.triangles = parts;
+    }
+    // Beside the facet x = -y: inside, on it, and outside by the last bit.
+    std::vector<Vec3> points{{-4.0412873194526372e-19, 4.0412873194526367e-19, -0.72718592726760556}};
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> unit(0, 1);
+    while (points.size() < 600) {
+        const double t = std::pow(10, -20 + 12 * unit(random)), z = 2 * unit(random) - 1;
+        for (const double y : {std::nextafter(t, 0.0), t, std::nextafter(t, 1.0)})
+            points.push_back({-t, y, z});
+    }
+    InsideOptions small_leaves;
+    small_leaves.leaf_facets = 1;
+    for (const mesh::Mesh& mesh : {tetrahedron, many}) {
+        const mesh::LatticeMesh lattice_mesh = mesh::snap(mesh)->mesh;
+        const Tally tally = expect_answers_of_the_oracle(lattice_mesh, points, 1074);
+        EXPECT_GT(std::min({tally.inside, tally.on, tally.outside}), 190u);
+        expect_answers_of_the_oracle(lattice_mesh, points, 1074, small_leaves);
+    }
+}
+
 TEST(InsideQuery, AnswersForFansOfSliversWithoutCuttingThemSmall) {
     // 4 000 sides: caps are fans of slivers, sides are strips of them.
     const auto snapped = mesh::snap(mesh::cylinder(1, 1, 4000));

@@ -96,6 +96,20 @@ TEST_F(StoredInsideTest, AnswersAsTheInsideQueryDoes) {
     }
 }
 
+TEST_F(StoredInsideTest, IsOnWhatIsLeftOfABodyThatCollapsed) {
+    mesh::Mesh mesh = tests::box({0, 0, 0}, {40, 40, 40});
+    const auto first = static_cast<mesh::VertexIndex>(mesh.vertices.size());
+    for (const double t : {0.0, 1.0, 2.0, 5.0}) mesh.vertices.push_back({50 + 3 * t, 60 - t, 10 + 2 * t});
+    for (const mesh::Triangle& t : {mesh::Triangle{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    store(tests::on_lattice(mesh), 2);
+    auto stored = StoredInside::open(path_);
+    ASSERT_TRUE(stored.has_value());
+    for (const double t : {0.0, 0.5, 1.75, 5.0, 5.5})
+        EXPECT_EQ((*stored)({50 + 3 * t, 60 - t, 10 + 2 * t}).value(), t <= 5 ? Side::on : Side::outside)
+            << t;
+}
+
 TEST_F(StoredInsideTest, ReadsNoMoreThanItNeedsAndNoticesWhatIsDamagedThere) {
     const mesh::LatticeMesh mesh = tests::on_lattice(tests::bumpy_sphere(5));
     store(mesh, 8);
