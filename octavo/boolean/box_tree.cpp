@@ -150,14 +150,16 @@ void BoxTree::fill_blocks(const Soup& soup, const Room& room, std::span<const ch
     const std::size_t count = (facets_.size() + width - 1) / width;
     blocks_.resize(count);
     levels_.emplace_back(count);
+    // What is left of the last block repeats its last facet; its boxes are empty.
+    const auto corners_at = [&](std::size_t number, std::size_t lane) -> const mesh::Triangle& {
+        return soup.facets[facets_[std::min(number * width + lane, facets_.size() - 1)]];
+    };
     parallel_chunks(context, count, grain / width, [&](std::size_t begin, std::size_t end) {
         for (std::size_t number = begin; number < end; ++number) {
             FacetBlock& block = blocks_[number];
             BoxNode& node = levels_[0][number];
             for (std::size_t lane = 0; lane < width; ++lane) {
-                // What is left of the last block repeats its last facet; its boxes are empty.
-                const std::size_t position = std::min(number * width + lane, facets_.size() - 1);
-                const mesh::Triangle& corners = soup.facets[facets_[position]];
+                const mesh::Triangle& corners = corners_at(number, lane);
                 for (int corner = 0; corner < 3; ++corner) {
                     const exact::Point point = soup.points[corners[corner]];
                     const std::uint32_t vertex = corners[corner];
@@ -167,9 +169,12 @@ void BoxTree::fill_blocks(const Soup& soup, const Room& room, std::span<const ch
                     block.point[corner][1][lane] = point.y;
                     block.point[corner][2][lane] = point.z;
                 }
-                if (!is_upright) set_box(node, lane, {corners, room.places}, room.margin);
             }
-            if (is_upright) set_boxes(node, block, room.margin);
+            if (is_upright)
+                set_boxes(node, block, room.margin);
+            else
+                for (std::size_t lane = 0; lane < width; ++lane)
+                    set_box(node, lane, {corners_at(number, lane), room.places}, room.margin);
         }
     });
     for (std::size_t lane = facets_.size() - (count - 1) * width; lane < width; ++lane)
