@@ -29,7 +29,8 @@ BpOctreeFacts facts_of(const bp_octree::BpOctree& tree, std::span<const std::uin
 /// Of a file, by its head and index.
 BpOctreeFacts facts_of(const bp_octree::BpoReader& reader);
 
-/// format ("bpo"), depth, levels with their planes, volumes and bytes, leaves, planes, triangles, volume, bytes and closed.
+/// format ("bpo"), depth, levels with their planes, volumes and bytes, leaves, planes, triangles, volume, bytes and
+/// closed.
 Json json_of(const BpOctreeFacts& facts);
 
 /// The same for people, with a line for each level.

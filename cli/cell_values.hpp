@@ -12,8 +12,8 @@
 
 namespace octavo::cli {
 
-/// The last number of each line ("17", or "element,17"); a first line without a number is a header. Errors: io, cancelled,
-/// bad_input with the line, or when there are not `count`.
+/// The last number of each line ("17", or "element,17"); a first line without a number is a header. Errors: io,
+/// cancelled, bad_input with the line, or when there are not `count`.
 Result<std::vector<double>> read_cell_values(const std::string& path, std::size_t count,
                                              const Context& context = {});
 

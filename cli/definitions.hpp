@@ -34,8 +34,8 @@ struct VerbDefinition {
 
 OptionDefinition definition_of(const CLI::Option& option);
 
-/// The options that stand before the verb or after it. Old names of options, which have no heading, are left out here and
-/// below.
+/// The options that stand before the verb or after it. Old names of options, which have no heading, are left out here
+/// and below.
 std::vector<OptionDefinition> common_definitions(const CLI::App& app);
 
 /// Every verb, in the order in which it was added.

@@ -18,8 +18,8 @@ bool has_fractions(const hexmesh::Built& built) {
     return built.mesh.is_octree() && (!built.mesh.fractions.empty() || built.report.boundary_cells == 0);
 }
 
-/// How much of the solids the cells fill, all together. Without fractions nothing is known of boundary cells, so that half of
-/// each is an estimate; conforming meshes have none, and what they fill are their cells.
+/// How much of the solids the cells fill, all together. Without fractions nothing is known of boundary cells, so that
+/// half of each is an estimate; conforming meshes have none, and what they fill are their cells.
 double volume_of(const hexmesh::Report& report, bool exact) {
     double volume = 0;
     for (const hexmesh::SolidReport& solid : report.solids)

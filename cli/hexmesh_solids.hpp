@@ -20,9 +20,9 @@ Result<std::vector<mesh::Mesh>> read_solids(Session& session, const Context& con
                                             const std::vector<std::string>& paths,
                                             const io::CsgReadOptions& csg);
 
-/// Makes the surface of a solid that `refusal` says is none anew by an exact union with nothing, which leaves what it winds
-/// about at least once, and warns of that. Leaves it as it is and says false when a union is no remedy: what is open, unless
-/// `options` close it, inside out or holds nothing. Errors: cancelled.
+/// Makes the surface of a solid that `refusal` says is none anew by an exact union with nothing, which leaves what it
+/// winds about at least once, and warns of that. Leaves it as it is and says false when a union is no remedy: what is
+/// open, unless `options` close it, inside out or holds nothing. Errors: cancelled.
 Result<bool> unite_with_nothing(Session& session, const Context& context, const std::string& path,
                                 const Error& refusal, const boolean::Options& options, mesh::Mesh& solid);
 

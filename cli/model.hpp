@@ -76,8 +76,8 @@ Result<io::WriteReport> write_octree(Session& session, const Context& context, c
 /// Snaps a mesh to its own lattice. Warns when a closed surface is inside out, or when none has area.
 Result<mesh::Snapped> snap(Session& session, const mesh::Mesh& mesh);
 
-/// For `--open winding`: warns of the facets that are added where the surface is open, and when what they close is inside
-/// out.
+/// For `--open winding`: warns of the facets that are added where the surface is open, and when what they close is
+/// inside out.
 void warn_of_closing(Session& session, const mesh::LatticeMesh& mesh);
 
 /// A surface whose vertices are points of a lattice. Answers are exact for it.

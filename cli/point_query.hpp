@@ -32,8 +32,8 @@ struct AnswerOutput {
 };
 Result<AnswerOutput> settle_answers(Session& session, const PointQueryOptions& options);
 
-/// Reads the points. Warns of those that are not numbers, which `remark` says more about. The model comes before them on
-/// the command line and is read after them, so who has read it adds them to the session's inputs.
+/// Reads the points. Warns of those that are not numbers, which `remark` says more about. The model comes before them
+/// on the command line and is read after them, so who has read it adds them to the session's inputs.
 Result<std::vector<Vec3>> read_points(Session& session, const Context& context,
                                       const PointQueryOptions& options, const char* remark);
 

@@ -45,8 +45,8 @@ class Session {
     /// The files that it will write.
     std::vector<std::string> outputs;
 
-    /// For each mesh that was read and has polygons: the polygon of each of its triangles. The library numbers triangles;
-    /// an error whose place is in such a file is told with the faces of the file.
+    /// For each mesh that was read and has polygons: the polygon of each of its triangles. The library numbers
+    /// triangles; an error whose place is in such a file is told with the faces of the file.
     std::map<std::string, std::vector<std::uint32_t>> polygon_of_triangle;
 
     /// What scripts rely on: the keys of the verb's result.

@@ -7,8 +7,8 @@
 
 namespace octavo::cli {
 
-/// Writes `text` to stdout. False where it is not taken (closed, full), or where the work was asked to stop while nobody
-/// took it.
+/// Writes `text` to stdout. False where it is not taken (closed, full), or where the work was asked to stop while
+/// nobody took it.
 bool to_stdout(std::string_view text);
 
 /// Writes `text` to stderr. What stderr does not take (closed, full) is lost: there is nobody left to tell, and neither

@@ -13,8 +13,8 @@
 #include "program.hpp"
 
 // `octavo convert IN OUT`: from one format to another, without changing the geometry. A CSG tree becomes the mesh that
-// it evaluates to, an octree the boundary of its black cells, or another form of itself, a BP-octree its exact triangles
-// or the envelopes of a level.
+// it evaluates to, an octree the boundary of its black cells, or another form of itself, a BP-octree its exact
+// triangles or the envelopes of a level.
 //
 // --unit is the unit that the numbers of OUT mean. The numbers of a file that states its unit are scaled to it, so that
 // the model keeps its size; those of others are taken to be in it.

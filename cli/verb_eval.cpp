@@ -12,8 +12,8 @@
 #include "model.hpp"
 #include "program.hpp"
 
-// `octavo eval "(body | lid) - bore" body=b.stl lid=l.stl bore=c.ply -o OUT` and `octavo eval MODEL.csg -o OUT`: a whole
-// expression in one pass.
+// `octavo eval "(body | lid) - bore" body=b.stl lid=l.stl bore=c.ply -o OUT` and `octavo eval MODEL.csg -o OUT`: a
+// whole expression in one pass.
 
 namespace octavo::cli {
 namespace {

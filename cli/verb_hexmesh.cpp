@@ -36,8 +36,8 @@ struct HexmeshOptions {
     bool conforming = false, fit = false, no_fractions = false, skip_unsupported = false;
 };
 
-/// Meshes the solids. One that overlaps itself is united with nothing first when that is asked for, which changes `solids`;
-/// overlaps that it still has, where rounding to the lattice made some, go by winding. `united` says which.
+/// Meshes the solids. One that overlaps itself is united with nothing first when that is asked for, which changes
+/// `solids`; overlaps that it still has, where rounding to the lattice made some, go by winding. `united` says which.
 Result<hexmesh::Built> mesh_solids(Session& session, const Context& context, const HexmeshOptions& options,
                                    hexmesh::Options meshing, std::vector<mesh::Mesh>& solids,
                                    std::vector<bool>& united) {
@@ -119,7 +119,8 @@ std::vector<std::string> names_of(const std::vector<std::string>& inputs) {
     return mesh::distinct_names(names);
 }
 
-/// What is known of the cells besides the mesh: numbers that the user brings, and their quality where cells are no cubes.
+/// What is known of the cells besides the mesh: numbers that the user brings, and their quality where cells are no
+/// cubes.
 struct CellNumbers {
     std::vector<double> values, quality;
 };

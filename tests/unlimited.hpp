@@ -16,8 +16,9 @@
 
 // Integers and rationals without limit, GMP's, for oracles: every operation is exact.
 //
-// GMP's own classes for C++ give expressions that refer to their operands, which `auto`, lambdas and conditional operators
-// keep too long; here each operation gives a number. Boost.Multiprecision's numbers took four seconds a file to compile.
+// GMP's own classes for C++ give expressions that refer to their operands, which `auto`, lambdas and conditional
+// operators keep too long; here each operation gives a number. Boost.Multiprecision's numbers took four seconds a file
+// to compile.
 
 namespace octavo::tests {
 

@@ -14,8 +14,8 @@
 
 #include "peak_memory.hpp"
 
-// CGAL's corefinement on two OFF files as a line of JSON, for boolean.py: user CPU seconds from arrays in memory to a mesh
-// in memory.
+// CGAL's corefinement on two OFF files as a line of JSON, for boolean.py: user CPU seconds from arrays in memory to a
+// mesh in memory.
 //   octavo_boolean_cgal union|intersection|difference A.off B.off RESULT.off
 
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hexahedral meshes beside the peers of each stage: p4est balances the same leaves and numbers their nodes; OpenVDB tells
-// inside from outside on a grid of the same cells.
+// Hexahedral meshes beside the peers of each stage: p4est balances the same leaves and numbers their nodes; OpenVDB
+// tells inside from outside on a grid of the same cells.
 //
 //     octavo_hexmesh_peers [MESH [LEVEL…]]        a closed mesh; without it a generated one; levels 8, 9 and 10
 //
-// CPU seconds of the process, one thread, the best of three of Octavo and one run of each peer, as CSV; the last column is
-// how many times as long as Octavo the system takes for the same. Peak memory of Octavo is that of a process that
+// CPU seconds of the process, one thread, the best of three of Octavo and one run of each peer, as CSV; the last column
+// is how many times as long as Octavo the system takes for the same. Peak memory of Octavo is that of a process that
 // does nothing else. Cell counts under balance must agree or the program fails.
 
 #include <algorithm>
@@ -37,8 +37,8 @@ namespace {
 using namespace octavo;
 using bench::Usage;
 
-/// Peak memory of `work` in a process of its own: in this one, pages that earlier work left would count. Ask before this
-/// process does such work, for the other inherits its heap.
+/// Peak memory of `work` in a process of its own: in this one, pages that earlier work left would count. Ask before
+/// this process does such work, for the other inherits its heap.
 template <class Work>
 double peak_megabytes(const Work& work) {
     std::array<int, 2> ends{};

@@ -11,8 +11,8 @@
 
 #include "../peers/peer_clock.hpp"
 
-// A .bpo file where it lies: the time to open it and to answer one question at its surface, read and mapped, and the bytes
-// that questions, levels and views need of it.
+// A .bpo file where it lies: the time to open it and to answer one question at its surface, read and mapped, and the
+// bytes that questions, levels and views need of it.
 //   octavo_bpo_scene FILE.bpo [POINTS=200]
 
 namespace octavo::bench {

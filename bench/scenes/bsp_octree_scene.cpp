@@ -21,8 +21,9 @@
 
 // The BSP-octree of a model: building, file, points, going back to a mesh, a difference beside boolean/, a drawing.
 //   octavo_bsp_octree_scene [--repeat N] [--build-only] MODEL|sphere:FREQUENCY...
-// One CSV row a model; CPU seconds of one thread, the least of N runs. With --build-only only the tree and its file. The difference is with a copy of the model, turned
-// 30° about z and moved by a fifth of its longest side, on one lattice. A sphere is rough and has 20 FREQUENCY² triangles.
+// One CSV row a model; CPU seconds of one thread, the least of N runs. With --build-only only the tree and its file.
+// The difference is with a copy of the model, turned 30° about z and moved by a fifth of its longest side, on one
+// lattice. A sphere is rough and has 20 FREQUENCY² triangles.
 
 namespace octavo::bench {
 namespace {

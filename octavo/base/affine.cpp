@@ -5,8 +5,8 @@
 namespace octavo {
 namespace {
 
-/// The sign where doubles can tell: of six products of three numbers, added, the error is less than 2^-49 of the sum of their
-/// absolute values, as none overflows and what vanishes is less than 1e-260. 0 where it stays open.
+/// The sign where doubles can tell: of six products of three numbers, added, the error is less than 2^-49 of the sum of
+/// their absolute values, as none overflows and what vanishes is less than 1e-260. 0 where it stays open.
 int likely_sign(const std::array<std::array<double, 4>, 3>& m) {
     double largest = 0, sum = 0, absolute = 0;
     for (const auto& row : m)

@@ -5,8 +5,8 @@
 
 #include <octavo/base/vec3.hpp>
 
-// Directions and determinants at any scale: products of two or three lengths overflow from 1e102 on and vanish below 1e-108.
-// Multiplied by powers of two first they do neither, and are otherwise the same bit for bit.
+// Directions and determinants at any scale: products of two or three lengths overflow from 1e102 on and vanish below
+// 1e-108. Multiplied by powers of two first they do neither, and are otherwise the same bit for bit.
 
 namespace octavo {
 

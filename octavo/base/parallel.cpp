@@ -31,8 +31,8 @@ void run_tasks(std::size_t count, FunctionRef<void(std::size_t)> body) {
 #else
 
 void within_threads(const Context& context, FunctionRef<void()> body) {
-    // More threads than the machine runs at a time are slower, and oneTBB warns of them on standard error. As many as it
-    // runs are there anyhow: an arena of their own would begin asleep.
+    // More threads than the machine runs at a time are slower, and oneTBB warns of them on standard error. As many as
+    // it runs are there anyhow: an arena of their own would begin asleep.
     if (context.threads == 0 || context.threads >= tbb::info::default_concurrency()) return body();
     tbb::task_arena arena(context.threads);
     arena.execute(body);

@@ -8,12 +8,13 @@
 #include <octavo/base/parallel.hpp>
 #include <octavo/base/uninitialised.hpp>
 
-// Sorting on all threads: runs are sorted by themselves and merged two by two. A merge is cut into pieces of equal length
-// too, each of which finds where it begins in both runs by bisection, so that the last merge keeps all threads busy.
+// Sorting on all threads: runs are sorted by themselves and merged two by two. A merge is cut into pieces of equal
+// length too, each of which finds where it begins in both runs by bisection, so that the last merge keeps all threads
+// busy.
 //
-// The order must be total, equal elements being the same: then the result is that of std::sort for any number of threads.
-// Cost: as std::sort, and as much memory again while it runs. One thread does std::sort.
-// Source: S. Odeh, O. Green, Z. Mwassi, O. Shmueli, Y. Birk, Merge Path, 2012.
+// The order must be total, equal elements being the same: then the result is that of std::sort for any number of
+// threads. Cost: as std::sort, and as much memory again while it runs. One thread does std::sort. Source: S. Odeh, O.
+// Green, Z. Mwassi, O. Shmueli, Y. Birk, Merge Path, 2012.
 
 namespace octavo {
 namespace detail {

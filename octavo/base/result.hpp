@@ -46,8 +46,8 @@ struct Error {
     ErrorCode code = ErrorCode::internal;
     std::string sentence;  ///< what is wrong, without the place, without a final full stop
     Place place;
-    /// The option with another value of which the work would go on, by its name in the options of the function that failed
-    /// ("max_nodes"); empty when there is none. A program tells it by the name under which its users know it.
+    /// The option with another value of which the work would go on, by its name in the options of the function that
+    /// failed ("max_nodes"); empty when there is none. A program tells it by the name under which its users know it.
     std::optional<std::string> option = {};
 
     /// One line for people: `FILE:LINE:COLUMN: SENTENCE (max_nodes) (facets 3, 17)`.

@@ -98,8 +98,8 @@ class FanJoiner {
     std::vector<AboutEdge> about_;
 };
 
-/// Gives every point of the surface a vertex, and every fan at a special point one of its own. Vertices are in the order
-/// of the points.
+/// Gives every point of the surface a vertex, and every fan at a special point one of its own. Vertices are in the
+/// order of the points.
 class VertexNumbering {
   public:
     VertexNumbering(const Surface& surface, const std::vector<char>& special, const Context& context)

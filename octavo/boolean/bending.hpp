@@ -7,8 +7,8 @@
 #include <octavo/boolean/flush.hpp>
 #include <octavo/boolean/near_contacts.hpp>
 
-// One round of making faces flush (flush.hpp): edges are bent through what is near them and facets to vertices near them;
-// facets that lie on each other are subdivided together.
+// One round of making faces flush (flush.hpp): edges are bent through what is near them and facets to vertices near
+// them; facets that lie on each other are subdivided together.
 //
 // What is bent is told by edges and their vertices, so that all facets at an edge do the same. Facets that must change
 // together, for an edge or because they lie on each other, are *linked*; all that are linked change, or none does.

@@ -11,8 +11,8 @@
 // Which polygons cover each triangle of a subdivision, when their borders are segments of it: a flood from outside in
 // which crossing a border of a polygon enters or leaves it.
 //
-// Cost: one look at every edge; a copy of the list of polygons only where a border is crossed. Memory is reused by the next
-// `find`.
+// Cost: one look at every edge; a copy of the list of polygons only where a border is crossed. Memory is reused by the
+// next `find`.
 
 namespace octavo::boolean {
 

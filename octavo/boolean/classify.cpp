@@ -14,8 +14,8 @@ using exact::Plane;
 using exact::Point;
 using exact::Sign;
 
-/// v + ε (a - v) + ε² (b - v) for an infinitely small ε: a point inside the triangle (v, a, b), next to v. Where a linear
-/// function is zero at v, its sign at the point is that at a, or where that is zero too, that at b.
+/// v + ε (a - v) + ε² (b - v) for an infinitely small ε: a point inside the triangle (v, a, b), next to v. Where a
+/// linear function is zero at v, its sign at the point is that at a, or where that is zero too, that at b.
 class NearCorner {
   public:
     NearCorner(const PointTable& points, const mesh::Triangle& corners)

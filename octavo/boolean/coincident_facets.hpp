@@ -7,10 +7,9 @@
 // Facets with the same three corners become one, the first, which carries the sum of their winding changes; where that
 // is nothing, they vanish.
 //
-// Facets are dealt out by ranges of their least corners. Meshes are mostly numbered in some order, so that a range has few
-// facets that lie far apart, and a hash table for them fits the second-level cache. Ranges are independent; what
-// coincides is put together in the order of the facets.
-// Cost: about 12 ns a facet.
+// Facets are dealt out by ranges of their least corners. Meshes are mostly numbered in some order, so that a range has
+// few facets that lie far apart, and a hash table for them fits the second-level cache. Ranges are independent; what
+// coincides is put together in the order of the facets. Cost: about 12 ns a facet.
 
 namespace octavo::boolean {
 

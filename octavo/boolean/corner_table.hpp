@@ -11,9 +11,8 @@
 
 // The corners of triangles by the points that they are at.
 //
-// Threads share the work by ranges of points. Each looks at the blocks of triangles that have corners in its range, which
-// are few where meshes are numbered in some order.
-// Cost: one scattered write a corner.
+// Threads share the work by ranges of points. Each looks at the blocks of triangles that have corners in its range,
+// which are few where meshes are numbered in some order. Cost: one scattered write a corner.
 
 namespace octavo::boolean {
 

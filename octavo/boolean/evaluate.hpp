@@ -26,11 +26,11 @@
 // the same bytes for any number of threads.
 // Not guaranteed: detail finer than the lattice (2^-26 of the joint bounds), and that the smallest facets survive the
 // rounding of exact intersection points to doubles, or floats. Those that it turns over or makes cross are found by an
-// exact test of what leaves the library and mended by taking points to other numbers nearby; the report names those left.
-// Source: C. J. Ogayar, F. R. Feito, R. J. Segura, M. Rivero, Evaluación optimizada de árboles CSG de sólidos
-// triangulados de forma libre, 2008 (one pass over the whole tree: cut only what meets, classify groups by one
-// point, select by the expression). We depart from it in exactness, in winding numbers instead of in/out/on, and
-// in classifying all groups of a component by one ray.
+// exact test of what leaves the library and mended by taking points to other numbers nearby; the report names those
+// left. Source: C. J. Ogayar, F. R. Feito, R. J. Segura, M. Rivero, Evaluación optimizada de árboles CSG de sólidos
+// triangulados de forma libre, 2008 (one pass over the whole tree: cut only what meets, classify groups by one point,
+// select by the expression). We depart from it in exactness, in winding numbers instead of in/out/on, and in
+// classifying all groups of a component by one ray.
 
 namespace octavo::boolean {
 
@@ -110,8 +110,8 @@ struct Evaluated {
 
 /// Evaluates `program` over closed meshes; operand k of the program is `operands[k]`.
 /// Errors: not_a_solid when an operand is open or inconsistently oriented and `open` rejects that (with operand and
-/// facets), bad_input when a mesh is malformed, the tolerance no length, or the result unbounded, limit when the operands
-/// have no common lattice, cancelled.
+/// facets), bad_input when a mesh is malformed, the tolerance no length, or the result unbounded, limit when the
+/// operands have no common lattice, cancelled.
 Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Program& program,
                            const Options& options = {}, const Context& context = {});
 

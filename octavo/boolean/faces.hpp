@@ -22,7 +22,8 @@
 // Only facets that come near others are joined; two are when no third facet has their common edge and they change the
 // same winding numbers. Of several choices the longest edge goes first.
 // Invariants: a face goes by the name of the lesser of its facets, and turns as they do.
-// Cost: sorting the edges of facets that come near others, and a look at the corners of all facets if any can be joined.
+// Cost: sorting the edges of facets that come near others, and a look at the corners of all facets if any can be
+// joined.
 
 namespace octavo::boolean {
 

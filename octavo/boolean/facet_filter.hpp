@@ -11,7 +11,8 @@
 // of their yield, and each looks only at what the ones before have left: neighbours in a smooth surface go by the first
 // plane, slivers of one fan by an edge, slivers of two fans that cross each other by a product of edges.
 //
-// With a `reach`, facets must be farther apart than that to be thrown out: the same tests find what is nearly in contact.
+// With a `reach`, facets must be farther apart than that to be thrown out: the same tests find what is nearly in
+// contact.
 //
 // Exactness: coordinates have 26 bits, so differences, products of two and normals (53 bits) are exact doubles. Only
 // a product with a third coordinate and its sums round; `margin` bounds that. Nothing is thrown out within it.
@@ -31,8 +32,8 @@ struct alignas(32) FacetBlock {
     }
 };
 
-/// The facets of `others` that share a vertex whose star is spread (stars.hpp) with facet `lane` of `block`: they have no
-/// more in common than that, or an edge.
+/// The facets of `others` that share a vertex whose star is spread (stars.hpp) with facet `lane` of `block`: they have
+/// no more in common than that, or an edge.
 unsigned sharing_spread(const FacetBlock& block, int lane, const FacetBlock& others);
 
 /// The planes of the facets of a block, as doubles: the value of a point is normal · point + offset.
@@ -45,8 +46,9 @@ struct alignas(32) FacetPlanes {
     explicit FacetPlanes(const FacetBlock& block, double reach = 0);
 };
 
-/// Of the facets `candidates` of `others` (bit k is lane k), those that may meet facet `lane` of `block`, or come nearer
-/// to it than `reach`, in more than corners and edges that they share. `planes` are those of `block`, for the same reach.
+/// Of the facets `candidates` of `others` (bit k is lane k), those that may meet facet `lane` of `block`, or come
+/// nearer to it than `reach`, in more than corners and edges that they share. `planes` are those of `block`, for the
+/// same reach.
 unsigned may_meet(const FacetBlock& block, const FacetPlanes& planes, int lane, const FacetBlock& others,
                   unsigned candidates, double reach = 0);
 

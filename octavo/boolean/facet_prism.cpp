@@ -48,8 +48,8 @@ FacetPrism::FacetPrism(const FacetBlock& block, int lane, double reach) {
 FacetPrism FacetPrism::turned(const TurnedFrame& frame) const {
     FacetPrism prism = *this;
     for (Plane& plane : prism.planes_) {
-        // A point x is the sum of (place + origin) / stretch along the axes. Boxes hold their facets' places but for less
-        // than a unit of rounding down. The axes are off by some 2^-52 of their lengths.
+        // A point x is the sum of (place + origin) / stretch along the axes. Boxes hold their facets' places but for
+        // less than a unit of rounding down. The axes are off by some 2^-52 of their lengths.
         double normal[3], offset = plane.offset, unit = 0;
         for (int k = 0; k < 3; ++k) {
             const double along = plane.normal[0] * frame.axis[k][0] + plane.normal[1] * frame.axis[k][1] +

@@ -13,9 +13,9 @@
 // Facets of ordinary size are in one tree of boxes; all pairs of boxes that meet are found in one descent of the
 // tree against itself. *Long* facets, those whose box is much larger than the facets of an even mesh would be, are in
 // a tree of their own: among the others they would blow up the boxes of whole nodes, and with them the number
-// of pairs. Each long facet descends both trees by itself (long_facets.hpp). Bundles of slivers do so in trees of their own
-// of what is about them, in coordinates along and across the bundle (turned_frame.hpp). So a fan of
-// slivers costs what the slivers come near, not the product of all that their boxes overlap.
+// of pairs. Each long facet descends both trees by itself (long_facets.hpp). Bundles of slivers do so in trees of their
+// own of what is about them, in coordinates along and across the bundle (turned_frame.hpp). So a fan of slivers costs
+// what the slivers come near, not the product of all that their boxes overlap.
 //
 // What is left of pairs whose boxes meet goes through facet_filter.hpp.
 
@@ -24,8 +24,8 @@ namespace octavo::boolean {
 class FacetTree {
   public:
     FacetTree() = default;
-    /// With a `reach`, pairs that come nearer to each other than that, in lattice units, are found as well. `spread` are
-    /// the vertices of which that is known with the same reach (stars.hpp), which saves most of the search.
+    /// With a `reach`, pairs that come nearer to each other than that, in lattice units, are found as well. `spread`
+    /// are the vertices of which that is known with the same reach (stars.hpp), which saves most of the search.
     explicit FacetTree(const Soup& soup, const Context& context = {}, double reach = 0,
                        std::span<const char> spread = {});
 

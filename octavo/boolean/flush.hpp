@@ -11,12 +11,12 @@
 // Faces that were meant to be flush become flush: what is nearer than a tolerance is joined, before anything is cut.
 //
 // Problem: parts that touch face to face no longer do once a rotation has been rounded; the exact result then keeps
-// slabs, slits and slivers a lattice unit thick. Idea: work on the operands, not on the result. Vertices near each other
-// become one; an edge that passes near vertices, or near another edge, is bent through them; a facet near vertices is
-// bent to them; and facets that then lie on each other within the tolerance (a *sheet*) are subdivided together, seen
-// along one axis, so that they consist of the same triangles. Equal triangles are one facet from then on, whose
-// winding changes add up or cancel, exactly as if the parts had been flush all along. Rounds follow until nothing is
-// near that does not touch.
+// slabs, slits and slivers a lattice unit thick. Idea: work on the operands, not on the result. Vertices near each
+// other become one; an edge that passes near vertices, or near another edge, is bent through them; a facet near
+// vertices is bent to them; and facets that then lie on each other within the tolerance (a *sheet*) are subdivided
+// together, seen along one axis, so that they consist of the same triangles. Equal triangles are one facet from then
+// on, whose winding changes add up or cancel, exactly as if the parts had been flush all along. Rounds follow until
+// nothing is near that does not touch.
 //
 // Why nothing can open, cross or turn over: every step is a subdivision, which all facets at an edge share, or moves a
 // vertex for all facets that have it. Both keep the surface of every operand closed, so it is an operand like any
@@ -25,8 +25,8 @@
 // tolerance a round, so winding numbers farther from all surfaces than the moves are what they were: the result
 // differs only there, by a volume of at most displacement times area.
 // A sheet that cannot be subdivided so (a folded one, one that is not plane within three tolerances) is left to its
-// facets one by one: the surface stays closed and slivers remain. Where that goes on round after round, all is taken back
-// and done again without those facets: what cannot be joined stays as it was.
+// facets one by one: the surface stays closed and slivers remain. Where that goes on round after round, all is taken
+// back and done again without those facets: what cannot be joined stays as it was.
 //
 // Not joined: what is near only to a line or point in which facets cut each other; where that leaves a thin shell,
 // thin_shells.hpp takes it away.

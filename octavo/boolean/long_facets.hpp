@@ -11,9 +11,9 @@
 //
 // Each descends the tree past the boxes that its plane and edges miss; what is left goes through facet_filter.hpp.
 // Tried and lost: the planes at all levels; they hardly ever miss larger nodes, in turned frames either. To cut long
-// facets into the cells that they cross: slivers of one fan are neighbours in every cell along their length, and each cell
-// pays for them again. And slabs about the long facets below each box, along their mean normal: 3 % of the time of the
-// worst pair of fans, which a page of code is too much for.
+// facets into the cells that they cross: slivers of one fan are neighbours in every cell along their length, and each
+// cell pays for them again. And slabs about the long facets below each box, along their mean normal: 3 % of the time of
+// the worst pair of fans, which a page of code is too much for.
 
 namespace octavo::boolean {
 
@@ -23,8 +23,8 @@ class LongFacets {
     LongFacets(const BoxTree& own, const TurnedFrame* frame, double reach)
         : own_(own), frame_(frame), reach_(reach) {}
 
-    /// Calls `visit(facet, other)` for the facets at the positions [first, second) of their tree, with facets of `others`
-    /// and with those behind them in their own.
+    /// Calls `visit(facet, other)` for the facets at the positions [first, second) of their tree, with facets of
+    /// `others` and with those behind them in their own.
     template <class Visit>
     void for_each_pair(std::uint32_t first, std::uint32_t second, const BoxTree& others,
                        const Visit& visit) const {

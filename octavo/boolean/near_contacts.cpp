@@ -101,7 +101,8 @@ class NearSearch {
             const Point a = side.point[k], b = side.point[(k + 1) % 3];
             const Foot foot_on = foot(a, b, point);
             if (foot_on.at <= 0 || foot_on.at >= 1) continue;
-            // What lies on an edge is told however near it is to a corner: the surface may close there (t_junctions.hpp).
+            // What lies on an edge is told however near it is to a corner: the surface may close there
+            // (t_junctions.hpp).
             const bool exact = foot_on.distance < 1 && exact::collinear(a, b, point);
             if (!exact && (at_corner || foot_on.distance > tolerance_)) continue;
             on_edge = true;

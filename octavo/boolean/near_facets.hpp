@@ -14,10 +14,10 @@
 // The pairs of triangles of the result that rounding may bring into contact, in the pairs of facets of near_pairs.hpp.
 //
 // Of two facets only those triangles are told that no edge parts (`parts`): seen along an axis, one lies behind its own
-// edge and the other before it, farther than anything moves. Nearly all boxes of a fan of slivers meet, and this leaves an
-// eighth of them to the exact tests of rounding_faults.hpp, which cost ten times as much: a cut through 16 000 facets with
-// 5 million such pairs takes 0.25 s instead of 0.63.
-// Cost: about 1 µs a facet with moved corners, 5 ns any other, and 10 ns a pair of triangles whose boxes meet.
+// edge and the other before it, farther than anything moves. Nearly all boxes of a fan of slivers meet, and this leaves
+// an eighth of them to the exact tests of rounding_faults.hpp, which cost ten times as much: a cut through 16 000
+// facets with 5 million such pairs takes 0.25 s instead of 0.63. Cost: about 1 µs a facet with moved corners, 5 ns any
+// other, and 10 ns a pair of triangles whose boxes meet.
 
 namespace octavo::boolean {
 
@@ -33,8 +33,8 @@ class NearFacets {
     const UninitialisedVector<Pair>& pairs() const { return pairs_; }
     bool empty() const { return pairs_.empty(); }
 
-    /// Calls `visit(first, second)` for the triangles of a pair that may meet, unless they are inverted; once for two of
-    /// one facet.
+    /// Calls `visit(first, second)` for the triangles of a pair that may meet, unless they are inverted; once for two
+    /// of one facet.
     template <class Visit>
     void for_each(const Pair& pair, const Visit& visit) const {
         const Group &first = group_of(pair.first), &second = group_of(pair.second);

@@ -15,9 +15,9 @@
 //
 // Problem: rounding moves points by 2^-28 of a lattice unit or so, to floats by a unit or two, which can make triangles
 // cross that were apart by as little. To look for such pairs among all triangles of the result would cost more than the
-// set operation: pieces of slivers lie beside each other by the thousand. Idea: triangles lie in facets of the soup, and
-// facets that are farther apart than `contact_reach` did not pass the filter that looked for contacts. Let δ be what
-// rounding moves a coordinate by, and s the reach. A pair of facets is listed here when
+// set operation: pieces of slivers lie beside each other by the thousand. Idea: triangles lie in facets of the soup,
+// and facets that are farther apart than `contact_reach` did not pass the filter that looked for contacts. Let δ be
+// what rounding moves a coordinate by, and s the reach. A pair of facets is listed here when
 //   - it passed that filter: else a plane has both on its two sides, corners that they share in it, all others farther
 //     from it than s;
 //   - or it shares an edge;
@@ -57,8 +57,8 @@ inline Vec3 lattice_place(const RoundedPoints& rounded, PointId id) {
 struct NearPairs {
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
     UninitialisedVector<Pair> pairs;  ///< sorted, each once; one of either has a triangle with a moved corner
-    /// The first triangle of each facet of the soup, and the next one of its facet after each triangle, or no_index; for
-    /// the facets in pairs.
+    /// The first triangle of each facet of the soup, and the next one of its facet after each triangle, or no_index;
+    /// for the facets in pairs.
     UninitialisedVector<std::uint32_t> first_of, next;
 };
 

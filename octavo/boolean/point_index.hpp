@@ -7,7 +7,8 @@
 
 #include <octavo/exact/point.hpp>
 
-// Finds lattice points by value. Made only where one is looked for: most jobs never construct a point that could be one.
+// Finds lattice points by value. Made only where one is looked for: most jobs never construct a point that could be
+// one.
 
 namespace octavo::boolean {
 

@@ -19,7 +19,8 @@
 // conforms only if all of them become one vertex. Idea: a hash by the exact lattice cell of the point, which is a
 // function of its value alone, and exact comparison inside a cell. Points with lattice coordinates that are input
 // vertices get the vertex's id; the others are kept as lattice points, on which predicates are a hundred times
-// cheaper, and which boxes side by side make by the million. Facets that share a point then share its id without ever talking to each other.
+// cheaper, and which boxes side by side make by the million. Facets that share a point then share its id without ever
+// talking to each other.
 //
 // Ids: [0, vertices) are the soup's lattice points, then come constructed points in the order of insertion.
 // Cost: about 0.1 µs an insertion; 88 or 120 bytes a constructed point and 16 more for the table.

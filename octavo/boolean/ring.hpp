@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-// The sides that triangles about a point have opposite to it, and whether they make one closed polygon: then the triangles
-// are one fan about the point.
+// The sides that triangles about a point have opposite to it, and whether they make one closed polygon: then the
+// triangles are one fan about the point.
 //
 // Idea: fans are small, so the side that follows another one is found among all by comparing eight at once.
 // Cost: about 15 instructions a side up to 32 of them, then a sort.

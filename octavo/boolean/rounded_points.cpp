@@ -18,8 +18,8 @@ namespace {
 
 constexpr int fraction_bits = RoundedPoints::fraction_bits;
 constexpr int fixed_bits = exact::coordinate_bits + fraction_bits;
-// Floats may take a point past the lattice, by one and a half of their greatest distance, 2^-14 of its size. So the product
-// of three differences is less than twice that of three coordinates.
+// Floats may take a point past the lattice, by one and a half of their greatest distance, 2^-14 of its size. So the
+// product of three differences is less than twice that of three coordinates.
 constexpr int coarsest = 12;
 static_assert(fixed_bits == 62 && exact::budget::sum(2, 2 * fixed_bits + 1) <= 127);
 static_assert(exact::budget::sum(3, exact::budget::sum(2, 3 * fixed_bits + 1)) <= 191);
@@ -28,8 +28,8 @@ constexpr std::int64_t fixed(std::int64_t coordinate) {
     return coordinate * (std::int64_t{1} << fraction_bits);
 }
 
-/// How many of the fraction bits, and of those of whole units, a number lacks in the unit cell from `cell` on, counted from
-/// the world's origin. Whole units are doubles all over the lattice.
+/// How many of the fraction bits, and of those of whole units, a number lacks in the unit cell from `cell` on, counted
+/// from the world's origin. Whole units are doubles all over the lattice.
 int lacking_bits(std::int64_t cell, Numbers numbers) {
     const auto magnitude = static_cast<std::uint64_t>(cell >= 0 ? cell : -cell - 1);
     const bool are_floats = numbers == Numbers::floats;

@@ -10,17 +10,17 @@
 #include <octavo/boolean/point_table.hpp>
 #include <octavo/exact/sign.hpp>
 
-// The points of the arrangement as the numbers that leave the library, doubles or floats, and exact predicates on these.
+// The points of the arrangement as the numbers that leave the library, doubles or floats, and exact predicates on
+// these.
 //
 // Problem: what rounding does to the surface must be told without rounding. Idea: each coordinate goes to the nearest
-// double of world units, but to none finer than 2^-36 lattice units (2^-24 for floats); so all of them are integers of 62 bits in that
-// unit, what is written is what is tested, and predicates fit 192 bits.
-// Floats are coarser than the lattice where it reaches past 2^24 units from the world's origin, so vertices of the soup
-// may move too. Where they are coarser than 2^-14 of the lattice they hold no shape.
-// The nearest double is found from the lattice cell and the exact rest in it: a quotient of the whole numerator and
-// weight is off by 2^-26 units far from the lattice's corner, although the world's origin, where doubles are fine, may
-// be there.
-// Cost: about 60 ns a constructed point; vertices of the soup are scaled when asked for.
+// double of world units, but to none finer than 2^-36 lattice units (2^-24 for floats); so all of them are integers of
+// 62 bits in that unit, what is written is what is tested, and predicates fit 192 bits. Floats are coarser than the
+// lattice where it reaches past 2^24 units from the world's origin, so vertices of the soup may move too. Where they
+// are coarser than 2^-14 of the lattice they hold no shape. The nearest double is found from the lattice cell and the
+// exact rest in it: a quotient of the whole numerator and weight is off by 2^-26 units far from the lattice's corner,
+// although the world's origin, where doubles are fine, may be there. Cost: about 60 ns a constructed point; vertices of
+// the soup are scaled when asked for.
 
 namespace octavo::boolean {
 

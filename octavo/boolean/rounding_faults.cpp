@@ -109,8 +109,8 @@ class RoundedTriangles {
 
     using Corners = std::array<const RoundedPoints::Point*, 3>;
 
-    /// All five points lie in one plane: neither the segment's line nor a side of the triangle separates them, nor do the
-    /// segment's ends along the line.
+    /// All five points lie in one plane: neither the segment's line nor a side of the triangle separates them, nor do
+    /// the segment's ends along the line.
     static bool meets_in_plane(const RoundedPoints::Point& p, const RoundedPoints::Point& q,
                                const Corners& corner) {
         int axis = 0;

@@ -11,8 +11,8 @@
 #include <octavo/boolean/rounded_points.hpp>
 #include <octavo/boolean/surface.hpp>
 
-// What rounding does to the surface: facets that it turns over or makes flat, and pairs of facets that then meet in more
-// than the corners and edges that they share. Both are decided exactly, in the coordinates that leave the library.
+// What rounding does to the surface: facets that it turns over or makes flat, and pairs of facets that then meet in
+// more than the corners and edges that they share. Both are decided exactly, in the coordinates that leave the library.
 //
 // Most can be helped: a point between doubles has eight of them about it, and more beside those. Points of facets at
 // fault are taken to others nearby, one after the other, whenever that leaves fewer faults about the point. To round

@@ -21,7 +21,8 @@ class SpreadTest {
     }
 
   private:
-    /// So that rounding cannot matter: doubled areas are off by less than 2^-50 E², which is a little of what they must be.
+    /// So that rounding cannot matter: doubled areas are off by less than 2^-50 E², which is a little of what they must
+    /// be.
     static constexpr double least_reach = 0x1p-6;
 
     void load(std::uint32_t vertex, std::span<const std::uint32_t> ring) {

@@ -49,10 +49,10 @@ class Subdivision {
     explicit Subdivision(const PointTable& points, std::span<const exact::Plane> cut_planes = {})
         : points_(points), cut_planes_(cut_planes) {}
 
-    /// Starts with a triangle, or a strictly convex quadrilateral, of lattice points of `plane` (or any that, seen along
-    /// the plane's dominant axis, surround all that will be inserted). They become the vertices 0, 1, 2 and 3 and must
-    /// turn counter-clockwise seen from the plane's front; `ids` are their point ids, no_index for points that are in
-    /// no table.
+    /// Starts with a triangle, or a strictly convex quadrilateral, of lattice points of `plane` (or any that, seen
+    /// along the plane's dominant axis, surround all that will be inserted). They become the vertices 0, 1, 2 and 3 and
+    /// must turn counter-clockwise seen from the plane's front; `ids` are their point ids, no_index for points that are
+    /// in no table.
     void begin(const exact::Plane& plane, std::span<const exact::Point> corners,
                std::span<const PointId> ids);
 

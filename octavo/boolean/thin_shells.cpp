@@ -12,9 +12,9 @@ struct Extent {
     double volume6 = 0, area2 = 0;
 };
 
-/// Of the shell of each vertex that stands for one. Volumes are taken from that vertex, so that they do not drown in the
-/// distance from the origin, and in units of the tolerance, a lattice unit or so: in those of the world, squares of areas
-/// would be no doubles from 1e77 on, nor above zero at 1e-81.
+/// Of the shell of each vertex that stands for one. Volumes are taken from that vertex, so that they do not drown in
+/// the distance from the origin, and in units of the tolerance, a lattice unit or so: in those of the world, squares of
+/// areas would be no doubles from 1e77 on, nor above zero at 1e-81.
 std::vector<Extent> extents(const mesh::Mesh& mesh, mesh::DisjointSets& shells, double tolerance) {
     std::vector<Extent> result(mesh.vertices.size());
     for (const mesh::Triangle& t : mesh.triangles) {

@@ -9,11 +9,11 @@
 
 // Triangles of a plane and how they hang together: what a Subdivision knows without asking where its vertices are.
 //
-// Vertices are numbers from 0 on. A vertex goes into a triangle or onto an edge, or an edge between two triangles turns into
-// the other diagonal of both; the caller makes sure that this leaves every triangle turned the same way.
+// Vertices are numbers from 0 on. A vertex goes into a triangle or onto an edge, or an edge between two triangles turns
+// into the other diagonal of both; the caller makes sure that this leaves every triangle turned the same way.
 //
-// Invariants: neighbours name each other; every vertex that is connected names a triangle that has it; both triangles at
-// an edge have the same owner for it. Parts of a split edge keep its owner, new edges have none.
+// Invariants: neighbours name each other; every vertex that is connected names a triangle that has it; both triangles
+// at an edge have the same owner for it. Parts of a split edge keep its owner, new edges have none.
 
 namespace octavo::boolean {
 

@@ -10,10 +10,10 @@
 
 // Equal lattice points become one.
 //
-// Idea: points are dealt out by hash into parts of a few thousand; a part and its hash table fit the second-level cache,
-// and parts are independent. Points are numbered in the order in which they first appear, so the result does not
-// depend on hashes or threads. One table for all, four times the size of the cache, took three times as long.
-// Cost: about 30 ns a point.
+// Idea: points are dealt out by hash into parts of a few thousand; a part and its hash table fit the second-level
+// cache, and parts are independent. Points are numbered in the order in which they first appear, so the result does not
+// depend on hashes or threads. One table for all, four times the size of the cache, took three times as long. Cost:
+// about 30 ns a point.
 
 namespace octavo::boolean {
 

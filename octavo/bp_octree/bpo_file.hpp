@@ -21,7 +21,8 @@ struct ReadBpo {
 };
 
 struct ReadBpoOptions {
-    /// Read levels 0 to this one only, and no triangles; `bpo_format.hpp` says what else is missing then. By default all.
+    /// Read levels 0 to this one only, and no triangles; `bpo_format.hpp` says what else is missing then. By default
+    /// all.
     std::optional<int> levels;
     /// What to do with the beginning of a file, such as a download that broke off.
     enum class Partial : std::uint8_t { reject, accept };

@@ -54,8 +54,8 @@ class BpoReader {
         /// Of each node of the chunk: which split node of the level it is, which gray one of the chunk.
         std::span<const std::uint32_t> split, gray;
     };
-    /// The octants of these split nodes, ascending numbers on `level` − 1; the root for level 0 and {0}. Valid as long as
-    /// the reader. Errors: bad_input, io.
+    /// The octants of these split nodes, ascending numbers on `level` − 1; the root for level 0 and {0}. Valid as long
+    /// as the reader. Errors: bad_input, io.
     Result<std::vector<Octants>> octants(std::size_t level, std::span<const std::uint32_t> parents);
 
     /// The leaf that holds a place.

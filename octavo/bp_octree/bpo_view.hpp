@@ -9,9 +9,9 @@
 // The part of a stored tree that a view needs: fine where the eye is, coarse elsewhere, nothing read for what is out of
 // sight.
 //
-// The tree is walked level by level, and whoever looks decides for each split node whether its octants are wanted, by its
-// place and size; so a level costs one request for each run of chunks side by side. Nodes that are not split further
-// stand for all below them by their envelopes, so whatever is decided, the result contains the solid.
+// The tree is walked level by level, and whoever looks decides for each split node whether its octants are wanted, by
+// its place and size; so a level costs one request for each run of chunks side by side. Nodes that are not split
+// further stand for all below them by their envelopes, so whatever is decided, the result contains the solid.
 
 namespace octavo::bp_octree {
 

@@ -47,7 +47,8 @@ struct BuildOptions {
 };
 
 /// Errors: bad_input when the mesh has no triangle; limit when the tree would need more than 2^32 − 1 nodes or
-/// references, or its volumes more than a double; cancelled. Precondition: corners are indices of points, options are in range.
+/// references, or its volumes more than a double; cancelled. Precondition: corners are indices of points, options are
+/// in range.
 Result<BpOctree> build(const mesh::LatticeMesh& mesh, const BuildOptions& options = {},
                        const Context& context = {});
 

@@ -8,20 +8,21 @@
 #include <octavo/mesh/mesh.hpp>
 #include <octavo/octree/morton.hpp>
 
-// Where a BP-octree stops, by the three criteria of the thesis (its section 3.3, tables 3.1 and 3.2). There, all cells of
-// the deepest level that the surface meets are made first, and siblings that are all leaves are then joined from below:
+// Where a BP-octree stops, by the three criteria of the thesis (its section 3.3, tables 3.1 and 3.2). There, all cells
+// of the deepest level that the surface meets are made first, and siblings that are all leaves are then joined from
+// below:
 //
 //     count   while the new leaf has at most so many triangles
 //     sum     while the siblings have, those in several counted several times
 //     mean    until siblings have so many triangles on average
 //     none    never
 //
-// The thesis says count; its tables show sum: its bunny has 11 694 leaves of 12 triangles on level 6, where joining by count leaves
-// 2 213. By count the same leaves follow from above, since a cell meets no fewer triangles than its octants do. A sum or a
-// mean says nothing of the cells below, so these are looked at first: `split_by_siblings`.
+// The thesis says count; its tables show sum: its bunny has 11 694 leaves of 12 triangles on level 6, where joining by
+// count leaves 2 213. By count the same leaves follow from above, since a cell meets no fewer triangles than its
+// octants do. A sum or a mean says nothing of the cells below, so these are looked at first: `split_by_siblings`.
 //
-// Source: F. J. Melero, BP-Octree, doctoral thesis, Granada 2008. The algorithm printed there (4) never joins anything: a
-// flag that says that all octants are leaves is only set by octants that are none.
+// Source: F. J. Melero, BP-Octree, doctoral thesis, Granada 2008. The algorithm printed there (4) never joins anything:
+// a flag that says that all octants are leaves is only set by octants that are none.
 
 namespace octavo::bp_octree {
 

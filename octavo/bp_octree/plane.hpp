@@ -10,8 +10,8 @@
 //
 //     u · x <= 2048 · offset − 65536 · N          N = sum of |negative components of u|
 //
-// so that offset 0 is the corner of the cell that lies farthest back and 4064 the one farthest ahead (12 bits). Offsets are
-// rounded up, that is outwards, when a plane is made; everything that is certified is the rounded plane.
+// so that offset 0 is the corner of the cell that lies farthest back and 4064 the one farthest ahead (12 bits). Offsets
+// are rounded up, that is outwards, when a plane is made; everything that is certified is the rounded plane.
 
 namespace octavo::bp_octree {
 

@@ -22,9 +22,10 @@
 // for in the source, without having to sort.
 //
 // Slivers side by side, as in a fan across a cap that is not quite plane, lie across one another's planes, and n faces
-// make n² pieces. So where the best plane cuts many, or leaves nearly all faces on one side of very many, planes through
-// edges of faces and parallel to an axis are looked at too (separators): those between two of the slivers cut none, and n
-// faces make 2 n nodes. A separator is a plane through lattice points, with coefficients shorter than those of faces.
+// make n² pieces. So where the best plane cuts many, or leaves nearly all faces on one side of very many, planes
+// through edges of faces and parallel to an axis are looked at too (separators): those between two of the slivers cut
+// none, and n faces make 2 n nodes. A separator is a plane through lattice points, with coefficients shorter than those
+// of faces.
 //
 // Coplanar faces are recognised by the number of their plane and make one node.
 // Cost: 16 faces of a mesh in about 8 µs. Recursion uses a stack of its own: a chain of 10^5 nodes is fine.
@@ -41,8 +42,8 @@ enum class Partition : std::uint8_t {
 
 struct BuildOptions {
     Partition partition = Partition::fewest_splits;
-    /// Planes looked at for each node under `fewest_splits`. Twice as many make trees a hundredth smaller and take a tenth
-    /// longer: measured in docs/methods/bsp_octree.md.
+    /// Planes looked at for each node under `fewest_splits`. Twice as many make trees a hundredth smaller and take a
+    /// tenth longer: measured in docs/methods/bsp_octree.md.
     std::uint32_t candidates = 4;
 };
 

@@ -18,8 +18,8 @@ namespace octavo::bsp {
 /// Goes through one tree after the other and keeps its memory.
 class NodePolygons {
   public:
-    /// Calls `visit(index, polygon)` for the nodes, in preorder; the cell is that of the tree's root. The polygon has no
-    /// corners where a plane passes by its region, as in trees of files that lie. `visit` may use the pool.
+    /// Calls `visit(index, polygon)` for the nodes, in preorder; the cell is that of the tree's root. The polygon has
+    /// no corners where a plane passes by its region, as in trees of files that lie. `visit` may use the pool.
     template <class Visit>
     void for_each(FragmentPool& pool, const octree::Cell& cell, std::span<const Node> nodes,
                   const Visit& visit) {

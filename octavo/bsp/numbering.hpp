@@ -6,8 +6,8 @@
 
 // Numbers from 0 for values that come up in a small set again and again, such as the vertices of one tree.
 //
-// An open-addressing table that is emptied by counting up a stamp, so that starting anew costs nothing. Sorting the values
-// and bisecting took a tenth of the time of building a BSP-octree; this takes a fortieth.
+// An open-addressing table that is emptied by counting up a stamp, so that starting anew costs nothing. Sorting the
+// values and bisecting took a tenth of the time of building a BSP-octree; this takes a fortieth.
 
 namespace octavo::bsp {
 

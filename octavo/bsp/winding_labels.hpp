@@ -14,10 +14,10 @@
 // Problem: a region is labelled by the face that parts it from its neighbour, which is right where every face has
 // outside before it and inside behind it. Where surfaces cross, inside is where they wind about more often than not at
 // all, and no single face knows. Idea: all faces are in the tree, so winding numbers are constant in a region; and
-// between two neighbours they differ by the faces between them. Each node gives one such pair of neighbours: a spot of its
-// polygon is made so small that it lies in front of one region only, behind one region only, and each face in the plane
-// covers all of it or nothing. A tree of n nodes has n + 1 regions, and its n pairs join the regions in front of each
-// node with those behind it: so they join all, and the winding number of one of them gives every other.
+// between two neighbours they differ by the faces between them. Each node gives one such pair of neighbours: a spot of
+// its polygon is made so small that it lies in front of one region only, behind one region only, and each face in the
+// plane covers all of it or nothing. A tree of n nodes has n + 1 regions, and its n pairs join the regions in front of
+// each node with those behind it: so they join all, and the winding number of one of them gives every other.
 //
 // Nothing is rounded, and faces are cut by planes of the tree only: vertices are those of any other tree.
 // Cost: about twice that of extracting the boundary, and faces times nodes comparisons of numbers.
@@ -28,9 +28,10 @@ namespace octavo::bsp {
 class WindingLabels {
   public:
     /// Labels the leaves of the tree of all faces of a closed surface in a cell: in where it winds about at least once.
-    /// The fragments are the parts in the cell of input triangles that the pool knows; they may overlap. `at_low_corner` is the
-    /// winding number of the cell's low corner, moved by an infinitely small (ε, ε², ε³). Returns whether the labels were these
-    /// before, all winding numbers are 0 or 1, and all of every face is between different ones.
+    /// The fragments are the parts in the cell of input triangles that the pool knows; they may overlap.
+    /// `at_low_corner` is the winding number of the cell's low corner, moved by an infinitely small (ε, ε², ε³).
+    /// Returns whether the labels were these before, all winding numbers are 0 or 1, and all of every face is between
+    /// different ones.
     bool label(FragmentPool& pool, const octree::Cell& cell, std::span<const Fragment> fragments,
                std::span<Node> nodes, std::int32_t at_low_corner);
 

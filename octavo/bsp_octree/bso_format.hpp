@@ -24,16 +24,16 @@ namespace octavo::bsp_octree {
 /// True when the bytes begin like a .bso file.
 bool looks_like_bso(std::span<const std::uint8_t> bytes);
 
-/// Gives the sink the bytes of the file, block by block. Nodes and planes that the solid does not refer to are left out.
-/// The same solid gives the same bytes.
+/// Gives the sink the bytes of the file, block by block. Nodes and planes that the solid does not refer to are left
+/// out. The same solid gives the same bytes.
 void encode(const BspOctree& octree, const ByteSink& sink);
 std::vector<std::uint8_t> encode(const BspOctree& octree);
 
-/// Reads a file from the front as it comes: a block is decoded as soon as it is there, and refused as soon as it is wrong.
-/// Beside the solid, one block is in memory; memory is taken for what has come, never for what was claimed.
-/// Tests every claim: bad_input with the byte where the trouble is; unsupported for another version; limit for more nodes
-/// than a store can hold; cancelled, asked about before each block; errors of the source.
-/// Not tested is whether the faces of the trees close: of a file that was made to lie, `to_mesh` will say so.
+/// Reads a file from the front as it comes: a block is decoded as soon as it is there, and refused as soon as it is
+/// wrong. Beside the solid, one block is in memory; memory is taken for what has come, never for what was claimed.
+/// Tests every claim: bad_input with the byte where the trouble is; unsupported for another version; limit for more
+/// nodes than a store can hold; cancelled, asked about before each block; errors of the source. Not tested is whether
+/// the faces of the trees close: of a file that was made to lie, `to_mesh` will say so.
 Result<BspOctree> decode(const ByteSource& source, const Context& context = {});
 Result<BspOctree> decode(std::span<const std::uint8_t> bytes);
 

@@ -18,10 +18,10 @@
 // A solid as an octree whose leaves are white, black, or hold a BSP tree of the faces in them: exact, and closed under
 // set operations for ever.
 //
-// Planes of trees are those of input faces, and separators through their edges; cells are cut out by walls between lattice points. So
-// every vertex of every result is a point of three such planes, within one bit budget, after any number of
-// operations. Set operations descend both trees at once and work only where both have faces; all other nodes are
-// shared with the operands. A BspOctree is a version: operations return new ones, cheaply, and old ones stay valid.
+// Planes of trees are those of input faces, and separators through their edges; cells are cut out by walls between
+// lattice points. So every vertex of every result is a point of three such planes, within one bit budget, after any
+// number of operations. Set operations descend both trees at once and work only where both have faces; all other nodes
+// are shared with the operands. A BspOctree is a version: operations return new ones, cheaply, and old ones stay valid.
 //
 // Versions of one solid share a store. One thread at a time may work with versions that do.
 // Source: Argüelles, BSP-OctTree (chapter 3 of the thesis). We depart from it in exactness (an integer lattice), in
@@ -65,8 +65,8 @@ class BspOctree {
     /// All that is not in this solid; constant time.
     BspOctree complement() const { return {lattice_, options_, store_, root_.complement()}; }
 
-    /// Set operations. Cost: that of the cells in which both have faces, and of copying the other solid's nodes when it is
-    /// in another store. Errors: bad_input when the solids are not on one lattice, cancelled.
+    /// Set operations. Cost: that of the cells in which both have faces, and of copying the other solid's nodes when it
+    /// is in another store. Errors: bad_input when the solids are not on one lattice, cancelled.
     Result<BspOctree> intersect(const BspOctree& other, Edit* edit = nullptr,
                                 const Context& context = {}) const;
     Result<BspOctree> unite(const BspOctree& other, Edit* edit = nullptr, const Context& context = {}) const;

@@ -21,10 +21,10 @@
 //
 // A BSP tree labels regions by the faces that bound them, which is right for a surface that bounds a solid and wrong
 // for one that crosses or covers itself. So the surface is checked first, and where it may be no solid's, regions are
-// labelled by winding numbers: inside is where they are positive, as everywhere in Octavo. Planes stay those of facets, and
-// no vertex is rounded. (Resolving by a Boolean first, rounded to the lattice, was tried and lost: slits thinner than a lattice unit
-// close, or cross anew in every round; docs/methods/bsp_octree.md.)
-// Source: algorithm 3.1 in Argüelles, BSP-OctTree.
+// labelled by winding numbers: inside is where they are positive, as everywhere in Octavo. Planes stay those of facets,
+// and no vertex is rounded. (Resolving by a Boolean first, rounded to the lattice, was tried and lost: slits thinner
+// than a lattice unit close, or cross anew in every round; docs/methods/bsp_octree.md.) Source: algorithm 3.1 in
+// Argüelles, BSP-OctTree.
 
 namespace octavo::bsp_octree {
 

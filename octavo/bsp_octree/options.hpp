@@ -18,8 +18,8 @@ enum class StopRule : std::uint8_t {
 
 struct Options {
     StopRule stop = StopRule::few_planes;
-    /// Most planes of a leaf under `few_planes`, 1 to `most_planes`. More make fewer cells and larger trees: measured in
-    /// docs/methods/bsp_octree.md.
+    /// Most planes of a leaf under `few_planes`, 1 to `most_planes`. More make fewer cells and larger trees: measured
+    /// in docs/methods/bsp_octree.md.
     std::uint32_t planes = 16;
     /// Cells of this level are leaves, however many faces they have; 0 to 26.
     int depth = 26;

@@ -16,8 +16,8 @@ using bsp::FragmentPool;
 /// patch of compact faces into little more pieces than there were faces, but a bundle of slivers goes whole through
 /// four octants. A cell may then be a leaf although it has `futile_size` times the planes, or however many where
 /// three fifths of them are in one octant again: a fan of a thousand slivers would be cut to pieces as short as it is
-/// wide, 10^5 times over. Swept over models of all kinds (docs/methods/bsp_octree.md): with a half, trees are as good; with nine
-/// tenths, those of fans are six times as large.
+/// wide, 10^5 times over. Swept over models of all kinds (docs/methods/bsp_octree.md): with a half, trees are as good;
+/// with nine tenths, those of fans are six times as large.
 constexpr std::size_t futile_growth = 2, futile_size = 8;
 
 /// Under `common_point`, faces at one edge and faces in one plane have no single point and need none.

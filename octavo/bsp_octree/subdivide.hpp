@@ -59,8 +59,8 @@ class Workspace {
     bool is_futile(std::span<const bsp::Fragment> fragments, const std::array<Fragments, 8>& octants) const;
 
     NodeRef make_leaf(std::span<const bsp::Fragment> fragments);
-    /// The node of a cell where parts of input triangles may cross, cover and nest one another: a leaf, or uniform. `winding` is
-    /// that of the low corner, displaced (bsp/winding_labels.hpp).
+    /// The node of a cell where parts of input triangles may cross, cover and nest one another: a leaf, or uniform.
+    /// `winding` is that of the low corner, displaced (bsp/winding_labels.hpp).
     NodeRef make_resolved_leaf(const octree::Cell& cell, std::span<const bsp::Fragment> fragments,
                                std::int32_t winding);
     /// Of those, the ones where they did.

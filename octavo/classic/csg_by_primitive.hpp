@@ -13,10 +13,10 @@ struct PrimitivewiseOctree {
     CsgBuildStats stats;
 };
 
-/// The octree of the program's expression, `options.depth` levels deep, before gray cells are looked at again. Octrees of
-/// sub-expressions live only until they are combined; those of one n-ary operation are combined in pairs of like
-/// count, so that a leaf takes part in log n operations and not in n. `stats.octants`, `primitive_tests`,
-/// `peak_nodes` and `peak_bytes` are those of this method. Errors: limit, cancelled.
+/// The octree of the program's expression, `options.depth` levels deep, before gray cells are looked at again. Octrees
+/// of sub-expressions live only until they are combined; those of one n-ary operation are combined in pairs of like
+/// count, so that a leaf takes part in log n operations and not in n. `stats.octants`, `primitive_tests`, `peak_nodes`
+/// and `peak_bytes` are those of this method. Errors: limit, cancelled.
 Result<PrimitivewiseOctree> build_by_primitive(const csg::Program& program, const CsgBuildOptions& options,
                                                const Context& context);
 

@@ -146,8 +146,8 @@ class CsgDescent {
         return write(cell, color_octants(cell, description, 0xFF, workspace), description, workspace, output);
     }
 
-    /// The octants of a cell three levels above the last: decided ones, and those that are split with the colours of all
-    /// that is two levels below them.
+    /// The octants of a cell three levels above the last: decided ones, and those that are split with the colours of
+    /// all that is two levels below them.
     struct Octant {
         octree::Node node = octree::Node::split;
         octree::GrandchildColors colors{};

@@ -18,14 +18,15 @@
 // knows its colour at once, exactly and in parallel; nothing is flooded, nothing can leak.
 //
 // A cell of the last level is gray when a facet meets its *interior*. A facet in a wall between two cells makes
-// neither gray, so boxes aligned with cells have no gray cells at all. Inside means winding number > 0. Facets inside the solid, where
-// shells overlap, are gray too: they are surface of the input, and this builder does not resolve overlaps.
+// neither gray, so boxes aligned with cells have no gray cells at all. Inside means winding number > 0. Facets inside
+// the solid, where shells overlap, are gray too: they are surface of the input, and this builder does not resolve
+// overlaps.
 //
 // Guaranteed: volume of black leaves ≤ volume of the snapped solid ≤ black + gray, in exact integers.
 // Cost: one overlap test a pair of facet and cell that meet, about 20 ns; memory: 64 bytes a facet, the lists of one
 // path and the tree at two bits a node.
-// Source: J. I. López and others, Modelización de sólidos mediante estructura octree, who expand the colours from seeds cell
-// by cell; docs/decisions/0002-colours-by-descent.md says why we do not.
+// Source: J. I. López and others, Modelización de sólidos mediante estructura octree, who expand the colours from seeds
+// cell by cell; docs/decisions/0002-colours-by-descent.md says why we do not.
 
 namespace octavo::classic {
 
@@ -36,8 +37,8 @@ struct BuildOptions {
 };
 
 /// The classic octree of a snapped mesh.
-/// Errors: bad_input (indices, a depth out of range), not_a_solid (open, under OpenPolicy::reject; no facet has area), limit (more
-/// than `max_nodes`), cancelled.
+/// Errors: bad_input (indices, a depth out of range), not_a_solid (open, under OpenPolicy::reject; no facet has area),
+/// limit (more than `max_nodes`), cancelled.
 Result<Built> build(const mesh::LatticeMesh& mesh, const BuildOptions& options = {},
                     const Context& context = {});
 

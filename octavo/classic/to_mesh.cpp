@@ -78,8 +78,8 @@ struct Side {
     bool upwards;
 };
 
-/// Where the surface meets itself its vertices are doubled: slots (a corner of a polygon) that are joined across an edge
-/// or within it are one vertex.
+/// Where the surface meets itself its vertices are doubled: slots (a corner of a polygon) that are joined across an
+/// edge or within it are one vertex.
 using Fans = mesh::DisjointSets;
 
 // Corners of squares, and then of polygons, are numbered by 32 bits.

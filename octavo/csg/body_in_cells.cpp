@@ -109,7 +109,8 @@ class BodiesInCells::Walk {
              multiply_add(z, zz, multiply_add(x, xz, multiply_add(y, yz, along_z)))}};
     }
 
-    /// What a component of a gradient adds to a linear function at the point on the way to where it is least in the cell.
+    /// What a component of a gradient adds to a linear function at the point on the way to where it is least in the
+    /// cell.
     Floats fall(Floats component, std::size_t axis) const {
         const Floats down = low_[axis] - point_[axis];
         return smaller(component * down, component * (down + 1));

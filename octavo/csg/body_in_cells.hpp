@@ -29,9 +29,9 @@ struct BodyInCells {
 
 class BodiesInCells {
   public:
-    /// Asks about one cell of a brick. The body is the intersection of the surfaces; `matters` are, for each of them, the
-    /// cells in which it does not hold the whole cell. The answer is added to `answer`, at the latest by `finish`. Of
-    /// more surfaces that matter than `most_at_once`, the rest is ignored and nothing is called entered.
+    /// Asks about one cell of a brick. The body is the intersection of the surfaces; `matters` are, for each of them,
+    /// the cells in which it does not hold the whole cell. The answer is added to `answer`, at the latest by `finish`.
+    /// Of more surfaces that matter than `most_at_once`, the rest is ignored and nothing is called entered.
     void ask(std::span<const BrickSurface> surfaces, const Layers* matters, BrickCell cell,
              BodyInCells& answer);
     void finish();

@@ -21,8 +21,8 @@
 // the cells as more points, since what the corners leave open is nearly always white. Not tried: three levels at once,
 // where cells decided two levels up would be looked at in vain.
 //
-// A brick goes three steps, so that several can share the second: `look` evaluates its corners; `ask` asks, of each cell
-// that these leave open, whether the bodies that may enter it do; `settle` evaluates the expression again with the
+// A brick goes three steps, so that several can share the second: `look` evaluates its corners; `ask` asks, of each
+// cell that these leave open, whether the bodies that may enter it do; `settle` evaluates the expression again with the
 // answers.
 
 namespace octavo::csg {

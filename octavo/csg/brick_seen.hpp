@@ -4,9 +4,9 @@
 #include <octavo/csg/layers.hpp>
 #include <octavo/csg/program.hpp>
 
-// What is seen of a solid in the 64 cells of a brick, as fold_words.hpp folds it: first their colours and their corners,
-// then, where that leaves cells open, their colours again and which of them some point inside and some point outside
-// is known to lie in.
+// What is seen of a solid in the 64 cells of a brick, as fold_words.hpp folds it: first their colours and their
+// corners, then, where that leaves cells open, their colours again and which of them some point inside and some point
+// outside is known to lie in.
 
 namespace octavo::csg {
 

@@ -133,8 +133,8 @@ LayerPair corners_of(const PlaneSteps& p) {
     return turn > 0 ? LayerPair{out, in} : LayerPair{in, out};
 }
 
-/// How far a quadric can be below the least of its values at a cell's corners: along each axis it falls short of what lies
-/// linearly between the ends by at most a quarter of the square term, and mixed terms are linear along each axis.
+/// How far a quadric can be below the least of its values at a cell's corners: along each axis it falls short of what
+/// lies linearly between the ends by at most a quarter of the square term, and mixed terms are linear along each axis.
 float bend_between_corners(const QuadricSteps& q) {
     return 0.25F * (std::max(q.xx, 0.0F) + std::max(q.yy, 0.0F) + std::max(q.zz, 0.0F));
 }
@@ -206,8 +206,8 @@ void see(const QuadricSteps& q, float error, BrickSurface& s) {
     s.slope = std::sqrt(x * x + y * y + z * z);
 }
 
-/// Whether a brick lies in the interior of a leaf's box. That takes less than counting quarters and is so for a third of
-/// the leaves.
+/// Whether a brick lies in the interior of a leaf's box. That takes less than counting quarters and is so for a third
+/// of the leaves.
 bool holds(const Leaf& leaf, const octree::Cell& brick) {
     bool result = true;
     for (int axis = 0; axis < 3; ++axis) {

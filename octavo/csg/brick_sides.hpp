@@ -5,12 +5,13 @@
 #include <octavo/csg/lattice_torus.hpp>
 
 // On which side of one surface the 125 corners of a brick lie, and which of its 64 cells it keeps off: point_sides.hpp
-// for two levels at once. Lanes are layers for planes, and corners of one layer for quadrics, of which more are evaluated.
-// Cost: 30 to 80 nanoseconds a surface, about one a cell.
+// for two levels at once. Lanes are layers for planes, and corners of one layer for quadrics, of which more are
+// evaluated. Cost: 30 to 80 nanoseconds a surface, about one a cell.
 
 namespace octavo::csg {
 
-/// A surface in steps of a quarter of a brick from its low corner: low + x (x + xx x + xy y + xz z) + …, negative inside.
+/// A surface in steps of a quarter of a brick from its low corner: low + x (x + xx x + xy y + xz z) + …, negative
+/// inside.
 struct BrickSurface {
     float low = 0, x = 0, y = 0, z = 0, xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
     float error = 0;  ///< bounds the rounding of a value anywhere in the brick, the surface's own included

@@ -6,12 +6,12 @@
 
 // The colours of the eight octants of a cell in one leaf of a program.
 //
-// Octants are classified eight at a time: a constraint is white or black where it cannot change sides on the way from the
-// middle of an octant to its corners. Where points are asked for, the 27 corners tell black, and of a half space white;
-// of a quadric its tangent. White and black are never wrong. Gray is not yet tight: octants that an edge or a bulge passes
-// by may be left gray, because on the way down a cell too many costs less than the question whether it is needed;
-// second_look.hpp asks it on the last level. Of a body that is small beside the octants, only the bounding box is
-// looked at: most leaves of a large scene, on the levels where all of them are read. Meshes are exact.
+// Octants are classified eight at a time: a constraint is white or black where it cannot change sides on the way from
+// the middle of an octant to its corners. Where points are asked for, the 27 corners tell black, and of a half space
+// white; of a quadric its tangent. White and black are never wrong. Gray is not yet tight: octants that an edge or a
+// bulge passes by may be left gray, because on the way down a cell too many costs less than the question whether it is
+// needed; second_look.hpp asks it on the last level. Of a body that is small beside the octants, only the bounding box
+// is looked at: most leaves of a large scene, on the levels where all of them are read. Meshes are exact.
 
 namespace octavo::csg {
 
@@ -24,9 +24,9 @@ struct Remains {
     std::uint64_t tests = 0;         ///< octants in which a primitive was looked at, beyond its bounding box
 };
 
-/// Of the octants of `parent` only those in `needed` must be right; the points, where they are asked for, are right always. Appends to `remains`
-/// one byte for each constraint or triangle of the payload, and for a polyhedron eight windings, unless all needed
-/// octants are decided.
+/// Of the octants of `parent` only those in `needed` must be right; the points, where they are asked for, are right
+/// always. Appends to `remains` one byte for each constraint or triangle of the payload, and for a polyhedron eight
+/// windings, unless all needed octants are decided.
 template <class SeenOfLeaf>
 SeenOfLeaf classify(const Program& program, const Leaf& leaf, Payload payload, const octree::Cell& parent,
                     std::uint8_t needed, Remains& remains);

@@ -50,8 +50,8 @@ inline Floats multiply_add(Floats a, Floats b, Floats c) {
 }
 inline Floats multiply_add(Floats a, float b, Floats c) { return multiply_add(a, Floats{} + b, c); }
 
-/// The sign bits of 32 numbers: bit n is that of lane n % 4 of quarter n / 4, where the quarters are the lower halves of
-/// the four registers and then the upper ones. Of flags they are the flags.
+/// The sign bits of 32 numbers: bit n is that of lane n % 4 of quarter n / 4, where the quarters are the lower halves
+/// of the four registers and then the upper ones. Of flags they are the flags.
 inline std::uint32_t signs(Floats a, Floats b, Floats c, Floats d) {
 #ifdef __AVX2__
     const auto integers = [](Floats v) { return std::bit_cast<__m256i>(v); };

@@ -19,9 +19,9 @@
 // it) apply to all cells at once: an operand is looked at only when some cell still needs it. An operation left with
 // one operand keeps its place as a `skip` word until the next pass, which saves moving what follows.
 //
-// A class Seen (seen.hpp) has: Cells, a set of cells, and any(cells); all() and none(), what everything and nothing look
-// like; unsettled(operation, cells), the cells that the operands seen so far leave open; forget_points(operation), for
-// operands that were not looked at; and the set operations.
+// A class Seen (seen.hpp) has: Cells, a set of cells, and any(cells); all() and none(), what everything and nothing
+// look like; unsettled(operation, cells), the cells that the operands seen so far leave open; forget_points(operation),
+// for operands that were not looked at; and the set operations.
 
 namespace octavo::csg {
 
@@ -132,8 +132,9 @@ inline void close_operation(std::uint32_t* word, std::uint32_t operands, const s
 }
 
 /// Writes what is undecided in each of some cells, of up to eight, in one pass over the words: each is needed in one or
-/// two cells only. `colors_at(at)` are those of the node at a word, `write_leaf(at, cells, to)` writes a leaf in some of the
-/// cells and moves their `to` on. The program must be gray in the cells. `to` is moved on to the ends of what was written.
+/// two cells only. `colors_at(at)` are those of the node at a word, `write_leaf(at, cells, to)` writes a leaf in some
+/// of the cells and moves their `to` on. The program must be gray in the cells. `to` is moved on to the ends of what
+/// was written.
 template <class ColorsAt, class WriteLeaf>
 void prune_words(std::span<const std::uint32_t> words, std::vector<WrittenOperation>& written, unsigned cells,
                  std::array<std::uint32_t*, 8>& to, const ColorsAt& colors_at, const WriteLeaf& write_leaf) {

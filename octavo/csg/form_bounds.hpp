@@ -13,7 +13,8 @@
 // operation cut by that of the one around it. A leaf whose box keeps off that region is constant there, and becomes it.
 // Why that holds: a leaf that becomes what it is outside of its box breaks no box, so outside of its box an operation
 // stays what it was, whatever goes below it; inside, all that matters there is kept.
-// Cost: two passes. Source: S. Cameron, Efficient bounds in constructive solid geometry, 1991 (S-bounds), one round of it.
+// Cost: two passes. Source: S. Cameron, Efficient bounds in constructive solid geometry, 1991 (S-bounds), one round of
+// it.
 
 namespace octavo::csg {
 

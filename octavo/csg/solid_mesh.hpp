@@ -23,7 +23,8 @@ double six_volumes(const mesh::Mesh& mesh);
 int volume_sign(const mesh::Mesh& mesh);
 
 /// A polyhedron, marked convex when all vertices lie below all facets within 2^-34 of its extent. Meshes with more
-/// than 4 million pairs of vertex and facet are taken as not convex without looking. Vertices that no facet uses are dropped.
+/// than 4 million pairs of vertex and facet are taken as not convex without looking. Vertices that no facet uses are
+/// dropped.
 Polyhedron as_polyhedron(mesh::Mesh mesh);
 
 }  // namespace octavo::csg

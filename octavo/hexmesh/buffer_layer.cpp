@@ -106,8 +106,8 @@ class LayerBuilder {
         return {twin_[c[0]], twin_[c[1]], twin_[c[3]], twin_[c[2]], c[0], c[1], c[3], c[2]};
     }
 
-    /// A twin for each node of the boundary, and the way to it: inwards from all sides at the node at once, the sum of their
-    /// directions, each counted once. False when the twins are more than there are numbers for.
+    /// A twin for each node of the boundary, and the way to it: inwards from all sides at the node at once, the sum of
+    /// their directions, each counted once. False when the twins are more than there are numbers for.
     bool add_twins(std::vector<Vec3>& positions) {
         struct AtNode {
             std::array<Vec3, 6> directions{};

@@ -102,8 +102,8 @@ Result<SolidFacets> closed_facets(const mesh::LatticeMesh& surface, classic::Ope
     return SolidFacets{std::move(*facets)};
 }
 
-/// Overlaps thinner than a cell leave no trace in the winding numbers of corners, so the surface is searched. Holes are not
-/// closed for that: where fans that close them cross it is a guess anyway.
+/// Overlaps thinner than a cell leave no trace in the winding numbers of corners, so the surface is searched. Holes are
+/// not closed for that: where fans that close them cross it is a guess anyway.
 Result<Prepared> prepare(std::span<const mesh::Mesh> solids, const Options& options, const Context& context) {
     Prepared prepared;
     prepared.content = mesh::bounds_of_facets(solids);

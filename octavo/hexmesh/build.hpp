@@ -59,8 +59,9 @@ struct Built {
 };
 
 /// Meshes the solids, which may overlap, touch or lie in each other.
-/// Errors: bad_input (indices, coordinates, options; no cell belongs to the mesh); not_a_solid (open, overlapping itself or inside out, under the
-/// rejecting policies) with facets of the solid `Place::file` "solid N" when there are several; limit; cancelled.
+/// Errors: bad_input (indices, coordinates, options; no cell belongs to the mesh); not_a_solid (open, overlapping
+/// itself or inside out, under the rejecting policies) with facets of the solid `Place::file` "solid N" when there are
+/// several; limit; cancelled.
 Result<Built> build(std::span<const mesh::Mesh> solids, const Options& options = {},
                     const Context& context = {});
 

@@ -189,8 +189,8 @@ std::vector<TemplateHex> pass(const std::vector<TemplateHex>& pieces, const std:
     return result;
 }
 
-/// The segments of a pass: cut edges of the cube, and at the thirds of faces all of whose edges are cut, as far as passes
-/// before this one have made them.
+/// The segments of a pass: cut edges of the cube, and at the thirds of faces all of whose edges are cut, as far as
+/// passes before this one have made them.
 std::vector<Segment> segments_of_pass(const TemplateHex& cube, EdgeSet cut, std::size_t axis) {
     const auto is_edge_cut = [&](std::size_t along, unsigned place) {
         return cut >> (4 * along + place) & 1;

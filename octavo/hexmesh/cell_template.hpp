@@ -35,8 +35,8 @@ inline constexpr std::int64_t template_side = 12 * 12 * 12;
 using TemplatePoint = std::array<std::int64_t, 3>;  ///< in [0, template_side]³
 using TemplateHex = std::array<TemplatePoint, 8>;   ///< corners in the order of octants
 
-/// Edges of a cube as bits: edge 4 * axis + b + 2 * c runs along `axis`; b and c tell the high side of the next two axes
-/// in cyclic order.
+/// Edges of a cube as bits: edge 4 * axis + b + 2 * c runs along `axis`; b and c tell the high side of the next two
+/// axes in cyclic order.
 using EdgeSet = std::uint16_t;
 
 /// The hexahedra for a set of cut edges; none when it has no template.

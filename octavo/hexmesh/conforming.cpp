@@ -96,8 +96,8 @@ bool for_each_place(const Vec3& low, double reach, double side, const Visit& vis
     return true;
 }
 
-/// The level of the grid's cells that an octant asks for: where a surface passes those of its own size, elsewhere those that
-/// the size field wants.
+/// The level of the grid's cells that an octant asks for: where a surface passes those of its own size, elsewhere those
+/// that the size field wants.
 int level_for(const mesh::HexMesh& octants, CellIndex cell, const SizeField& sizes, const Grid& grid) {
     const mesh::SolidSet& set = octants.set_of(cell);
     const octree::Cell octant = octree::Cell::of(octants.cells[cell]);
@@ -119,8 +119,8 @@ double side_of(const mesh::HexMesh& octants, CellIndex cell) {
     return octants.lattice.unit() * octants.cells[cell].side();
 }
 
-/// Whether the grid will have more cells than allowed, as far as the octants' volume tells: their own cells fill them at least.
-/// Known before anything is stored.
+/// Whether the grid will have more cells than allowed, as far as the octants' volume tells: their own cells fill them
+/// at least. Known before anything is stored.
 bool is_too_fine(const mesh::HexMesh& octants, const SizeField& sizes, const Grid& grid, double max_cells) {
     double least = 0;
     for (CellIndex cell = 0; cell < octants.cell_count(); ++cell)

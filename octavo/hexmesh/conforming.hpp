@@ -15,9 +15,9 @@
 // divided by templates (cell_template.hpp). A cell that has no template for what its neighbours do is cut in 27 itself,
 // and smaller cells keep a ring of whole cells of their own size around them, so that templates never meet templates of
 // another level. One sweep from the smallest cells to the largest sees to both.
-// The price: there are no templates where smaller cells lie on two sides of an edge of a larger one, so regions of small
-// cells grow until they bulge everywhere, and the inside of a solid is not coarser than its surface. Octree meshes with hanging
-// nodes are; this one is for codes that cannot tie them.
+// The price: there are no templates where smaller cells lie on two sides of an edge of a larger one, so regions of
+// small cells grow until they bulge everywhere, and the inside of a solid is not coarser than its surface. Octree
+// meshes with hanging nodes are; this one is for codes that cannot tie them.
 //
 // Sides are `precision` times or over powers of three, on multiples of themselves in the world.
 // A cell belongs to the solids that contain its centre, exactly (query/inside.hpp): cells have no fractions.
@@ -29,8 +29,8 @@ namespace octavo::hexmesh {
 /// Meshes the solids. `balance` and `keep` of the options mean nothing here; the mesh is no octree, so that
 /// `cells`, `nodes` and `fractions` are empty. Of the report's volumes only `exact_volume` and `inside_volume`, that of
 /// the cells, are given.
-/// Errors: those of `build`; limit when the grid has more than 2^20 cells along an axis, or a size is more than 3^11 times
-/// smaller than `precision`. `max_cells` limits the octree and the hexahedra of the grid, those outside included.
+/// Errors: those of `build`; limit when the grid has more than 2^20 cells along an axis, or a size is more than 3^11
+/// times smaller than `precision`. `max_cells` limits the octree and the hexahedra of the grid, those outside included.
 Result<Built> build_conforming(std::span<const mesh::Mesh> solids, const Options& options = {},
                                const Context& context = {});
 

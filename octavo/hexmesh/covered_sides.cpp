@@ -11,7 +11,8 @@ namespace {
 
 using octree::CellKey;
 
-/// How many of the four octants of `beside`, which is split, at its side towards `axis` (`high`: the high one) are kept.
+/// How many of the four octants of `beside`, which is split, at its side towards `axis` (`high`: the high one) are
+/// kept.
 int kept_at_side(const ClassifiedCells& cells, CellKey beside, unsigned axis, bool high) {
     int kept = 0;
     for (int octant = 0; octant < 8; ++octant) {
@@ -45,7 +46,8 @@ exact::Point moved(exact::Point p, unsigned axis, std::int32_t by) {
     return p;
 }
 
-/// The leaves round a point inside an edge along `axis`: whether some are smaller than `level`, and whether all are kept.
+/// The leaves round a point inside an edge along `axis`: whether some are smaller than `level`, and whether all are
+/// kept.
 struct RoundEdge {
     bool some_smaller = false, all_kept = true;
 };

@@ -8,10 +8,11 @@
 
 // Larger cells of a mesh beside smaller ones that the boundary cuts off in the middle of a side or an edge.
 //
-// Where smaller cells of the mesh cover a part of a larger side the rest of it is boundary, but no side of a cell; where
-// the boundary runs along half an edge the node in its middle hangs and must still go its own way. A layer of cells cannot be
-// laid there, and some formats cannot say it. When those larger cells are split nothing is left like that, except where
-// their octants now meet still smaller cells in the same way; balance keeps that from going on for long.
+// Where smaller cells of the mesh cover a part of a larger side the rest of it is boundary, but no side of a cell;
+// where the boundary runs along half an edge the node in its middle hangs and must still go its own way. A layer of
+// cells cannot be laid there, and some formats cannot say it. When those larger cells are split nothing is left like
+// that, except where their octants now meet still smaller cells in the same way; balance keeps that from going on for
+// long.
 
 namespace octavo::hexmesh {
 

@@ -11,7 +11,8 @@
 
 // The tree of 27 of a conforming mesh: on each level, which cells are cut in 27, as sparse sets.
 //
-// Level 0 has the smallest cells; a cell of level k has 3^k times their side. Roots are given cells of the last level. A leaf is a cell that is not cut and whose parent is; its edges are cut where a cell that shares them is cut.
+// Level 0 has the smallest cells; a cell of level k has 3^k times their side. Roots are given cells of the last level.
+// A leaf is a cell that is not cut and whose parent is; its edges are cut where a cell that shares them is cut.
 
 namespace octavo::hexmesh {
 

@@ -8,7 +8,8 @@
 
 #include <octavo/octree/morton.hpp>
 
-// The leaf that contains a lattice point, by bisection: for a few questions about leaves that nothing else has a tree of.
+// The leaf that contains a lattice point, by bisection: for a few questions about leaves that nothing else has a tree
+// of.
 
 namespace octavo::hexmesh {
 

@@ -13,11 +13,13 @@
 
 // Draws the boundary of a mesh, and the interfaces between its materials, onto the surfaces of the solids.
 //
-// Idea: a layer of cells between the steps of the mesh and the surface (buffer_layer.hpp); then rounds of small moves, each of which is taken back unless every cell that it changes stays good. A node on
-// the boundary wants to be at the point nearest to the mean of its neighbours there, on the surface of the solids that separate its cells (separating_surface.hpp); a node a
-// few layers inside wants to be in the middle of its neighbours. It moves there, or half the way, a quarter, an eighth.
-// Hanging nodes follow their masters, so that constraints stay what they were. Where the surface turns by more than 30
-// degrees between a node and its neighbours, the node goes to the surface without smoothing, which would round edges off.
+// Idea: a layer of cells between the steps of the mesh and the surface (buffer_layer.hpp); then rounds of small moves,
+// each of which is taken back unless every cell that it changes stays good. A node on the boundary wants to be at the
+// point nearest to the mean of its neighbours there, on the surface of the solids that separate its cells
+// (separating_surface.hpp); a node a few layers inside wants to be in the middle of its neighbours. It moves there, or
+// half the way, a quarter, an eighth. Hanging nodes follow their masters, so that constraints stay what they were.
+// Where the surface turns by more than 30 degrees between a node and its neighbours, the node goes to the surface
+// without smoothing, which would round edges off.
 //
 // Guaranteed: no cell gets a scaled Jacobian below `least_quality` (or below what it had, if that was less), and the
 // map of every cell that was positive everywhere stays so: quality.hpp proves it for every move. Whatever the
@@ -48,9 +50,10 @@ struct FitReport {
     double mean_distance_before = 0, largest_distance_before = 0;
 };
 
-/// Moves nodes of the mesh of these solids: sets `mesh.positions`; with a layer the mesh has more cells and is no octree any more. Empties `mesh.fractions`, which are no longer true.
-/// Open solids are closed as OpenPolicy::winding does for meshing. Errors: bad_input for a mesh
-/// without direct constraints; those of query::ClosestQuery; limit as check_size(); cancelled.
+/// Moves nodes of the mesh of these solids: sets `mesh.positions`; with a layer the mesh has more cells and is no
+/// octree any more. Empties `mesh.fractions`, which are no longer true. Open solids are closed as OpenPolicy::winding
+/// does for meshing. Errors: bad_input for a mesh without direct constraints; those of query::ClosestQuery; limit as
+/// check_size(); cancelled.
 Result<FitReport> fit(mesh::HexMesh& mesh, std::span<const mesh::Mesh> solids, const FitOptions& options = {},
                       const Context& context = {});
 

@@ -153,10 +153,10 @@ class ManifoldBoundary {
     const std::array<bool, 256> plain_ = make_plain_corners();
 };
 
-/// Parts of cells, as far as they decide anything, in steps. Sums over facets are rounded, and a cell that is exactly half
-/// filled would be in or out by how its surface happens to be cut into triangles. A step is 16 times the error where a facet
-/// is 2^21 times as large as the cell, 2^-32 (cell_volume.hpp), and no more than half a unit of the lattice, which is what
-/// rounding moves a vertex by, makes of any cell: the largest is 2^26 units wide.
+/// Parts of cells, as far as they decide anything, in steps. Sums over facets are rounded, and a cell that is exactly
+/// half filled would be in or out by how its surface happens to be cut into triangles. A step is 16 times the error
+/// where a facet is 2^21 times as large as the cell, 2^-32 (cell_volume.hpp), and no more than half a unit of the
+/// lattice, which is what rounding moves a vertex by, makes of any cell: the largest is 2^26 units wide.
 std::vector<double> in_steps(const std::vector<double>& parts) {
     constexpr double step = 0x1p-28;
     std::vector<double> result;
@@ -177,8 +177,8 @@ mesh::SolidSet decided(const mesh::SolidSet& set, std::span<const double> fracti
     return result;
 }
 
-/// Gives each cell the set of the solids that it goes to by `parts`, none when it is not kept. False when there are too many
-/// sets.
+/// Gives each cell the set of the solids that it goes to by `parts`, none when it is not kept. False when there are too
+/// many sets.
 bool assign_sets(ClassifiedCells& cells, const std::vector<double>& parts,
                  const std::vector<std::uint8_t>& kept) {
     std::map<std::pair<std::vector<mesh::SolidIndex>, std::vector<mesh::SolidIndex>>, std::uint16_t> numbers;

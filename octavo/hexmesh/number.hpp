@@ -36,8 +36,8 @@ struct Numbering {
 
 /// Numbers the corners of those `leaves` for which `kept` is not zero; an empty `kept` keeps all. The leaves fill
 /// the universe, are sorted and are balanced. Only kept leaves make nodes hang.
-/// Under balance by face alone masters may hang themselves, and only middles of edges and faces of kept cells are listed.
-/// Errors: limit beyond 2^31 − 2 leaves or 2^32 − 1 nodes.
+/// Under balance by face alone masters may hang themselves, and only middles of edges and faces of kept cells are
+/// listed. Errors: limit beyond 2^31 − 2 leaves or 2^32 − 1 nodes.
 Result<Numbering> number_nodes(std::span<const octree::CellKey> leaves, std::vector<std::uint8_t> kept = {});
 
 }  // namespace octavo::hexmesh

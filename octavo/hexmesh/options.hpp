@@ -47,8 +47,9 @@ enum class Keep : std::uint8_t {
     /// Those at least half filled: inside or outside is decided for each cell, and a cell on the boundary of several
     /// solids goes to those that fill half of it, or else to the one that fills most. What fitting starts from.
     half,
-    /// As `half`, and cells are added or left out where the boundary would touch itself or fold, and larger cells are split
-    /// where smaller ones would cover a part of their side: what a layer of cells can be laid on (buffer_layer.hpp).
+    /// As `half`, and cells are added or left out where the boundary would touch itself or fold, and larger cells are
+    /// split where smaller ones would cover a part of their side: what a layer of cells can be laid on
+    /// (buffer_layer.hpp).
     manifold,
     all,  ///< those outside too
 };
@@ -75,8 +76,8 @@ struct Options {
     /// Cells that touch a boundary cell are no larger than it, and those that touch these, so many times. One layer
     /// keeps larger cells off the boundary under Keep::half and Keep::manifold.
     int layers = 0;
-    /// A surface in the walls between cells asks for its size as well as one that passes through them (walls.hpp). Without
-    /// that a box on the grid has as few cells as there can be.
+    /// A surface in the walls between cells asks for its size as well as one that passes through them (walls.hpp).
+    /// Without that a box on the grid has as few cells as there can be.
     bool refine_at_walls = true;
     octree::Contact balance = octree::Contact::edge;
     Keep keep = Keep::touched;

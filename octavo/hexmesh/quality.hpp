@@ -43,8 +43,8 @@ struct Quality {
     std::uint64_t not_proved_positive = 0;  ///< cells that `is_positive_everywhere` does not vouch for
 };
 
-/// Products of three lengths must be doubles, also those of cells a millionth as large. Error: limit when a model of these
-/// bounds is too large or too small for that.
+/// Products of three lengths must be doubles, also those of cells a millionth as large. Error: limit when a model of
+/// these bounds is too large or too small for that.
 Status check_size(const Box3& bounds);
 
 CellCorners corners_of(const mesh::HexMesh& mesh, mesh::CellIndex cell);

@@ -46,10 +46,11 @@ Vec3 normal_direction(const classic::Facet& facet) {
     return (1 / length(v)) * v;
 }
 
-/// Whether two of the directions have a smaller cosine, that is, a wider angle between them; in whatever order they come.
+/// Whether two of the directions have a smaller cosine, that is, a wider angle between them; in whatever order they
+/// come.
 ///
-/// Two directions are no wider apart than their angles to a third, here to the mean of all, say together. So only those few
-/// are compared that lean away from it far enough, and none where the surface is flat for its size.
+/// Two directions are no wider apart than their angles to a third, here to the mean of all, say together. So only those
+/// few are compared that lean away from it far enough, and none where the surface is flat for its size.
 bool are_some_wider_apart(std::span<const Vec3> directions, double cosine) {
     constexpr double rounding = 1e-9;  // of the angles, which only choose what is compared
     const double widest = std::acos(cosine) - rounding;

@@ -16,11 +16,11 @@
 // written: one *EQUATION for each hanging node and each degree of freedom, the dependent node first.
 // CalculiX reads 20 characters of a number and drops the rest, exponent included; no number here is longer.
 //
-// Sets: an element set for each material ("A" or "A_AND_B", upper case, "OUTSIDE"; none twice, mesh/material_names.hpp);
-// an element surface for its part of the boundary ("SURFACE_OF_" and the name of the set), where sides that smaller cells
-// cover in part are left out; the node sets ALL, HANGING, and XMIN to ZMAX: the nodes at either end of the mesh, to a
-// thousandth of the shortest edge of a cell, without hanging ones, which supports must not hold.
-// Node and element numbers are those of the mesh plus one.
+// Sets: an element set for each material ("A" or "A_AND_B", upper case, "OUTSIDE"; none twice,
+// mesh/material_names.hpp); an element surface for its part of the boundary ("SURFACE_OF_" and the name of the set),
+// where sides that smaller cells cover in part are left out; the node sets ALL, HANGING, and XMIN to ZMAX: the nodes at
+// either end of the mesh, to a thousandth of the shortest edge of a cell, without hanging ones, which supports must not
+// hold. Node and element numbers are those of the mesh plus one.
 
 namespace octavo::io {
 

@@ -11,10 +11,10 @@
 #include <octavo/io/read.hpp>
 
 // Formats of meshes that people have and that have no reader of ours (glTF, Collada, FBX, 3DS, …) through the library
-// assimp. It knows some fifty; of those that are left out, scenes and animations of old programs, several crash or hang on
-// a few hundred bytes that are none. It hands over floats whatever the file holds, so the result carries a warning. All
-// meshes of the scene are put where the scene's nodes put them, as often as they do, and bit-equal points are welded,
-// because these formats repeat points at creases.
+// assimp. It knows some fifty; of those that are left out, scenes and animations of old programs, several crash or hang
+// on a few hundred bytes that are none. It hands over floats whatever the file holds, so the result carries a warning.
+// All meshes of the scene are put where the scene's nodes put them, as often as they do, and bit-equal points are
+// welded, because these formats repeat points at creases.
 //
 // Not guaranteed: errors have no line, and a file made to crash assimp may do so; exceptions are caught.
 

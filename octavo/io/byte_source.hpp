@@ -15,9 +15,9 @@
 // memory, or what a caller derives, such as HTTP range requests. One thread at a time.
 //
 // A file is read or mapped. Mapped, nothing is copied and programs share its pages; but whoever shortens it in place
-// kills its readers with SIGBUS, which no check can prevent. So reading is what Octavo itself does with files that it was
-// given, and mapping is for files that the caller knows nobody touches (those that Octavo writes are replaced, never
-// changed).
+// kills its readers with SIGBUS, which no check can prevent. So reading is what Octavo itself does with files that it
+// was given, and mapping is for files that the caller knows nobody touches (those that Octavo writes are replaced,
+// never changed).
 
 namespace octavo::io {
 

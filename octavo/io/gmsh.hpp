@@ -12,8 +12,8 @@
 // Gmsh's format 4.1 (binary), for meshes in which nothing hangs: it has no words for constraints.
 //
 // A volume entity and a physical group of dimension 3 for each set of solids that has cells ("a" or "a+b", "outside"),
-// and of dimension 2 for its part of the boundary (the same name). Tags of entities and groups are the number of the set
-// plus one, tags of nodes and elements those of the mesh plus one; boundary quadrangles follow the hexahedra.
+// and of dimension 2 for its part of the boundary (the same name). Tags of entities and groups are the number of the
+// set plus one, tags of nodes and elements those of the mesh plus one; boundary quadrangles follow the hexahedra.
 
 namespace octavo::io {
 

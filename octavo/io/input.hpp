@@ -30,9 +30,9 @@ class ByteBlock {
     std::size_t size_ = 0;
 };
 
-/// The first bytes of standard input, at most eight, as many as tell formats apart; fewer when it ends before. They are not
-/// lost: who reads "-" later gets them too. Waits until they are there, or the context is cancelled. Not for two threads at
-/// once.
+/// The first bytes of standard input, at most eight, as many as tell formats apart; fewer when it ends before. They are
+/// not lost: who reads "-" later gets them too. Waits until they are there, or the context is cancelled. Not for two
+/// threads at once.
 Bytes beginning_of_stdin(const Context& context = {});
 
 /// Reads the file `path` whole, or standard input when it is "-". Fails with ErrorCode::io when the system

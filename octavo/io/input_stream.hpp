@@ -8,8 +8,8 @@
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
 
-// A file or standard input from the front, piece by piece: for formats that are read without having them in memory whole,
-// and from pipes that are still being written to.
+// A file or standard input from the front, piece by piece: for formats that are read without having them in memory
+// whole, and from pipes that are still being written to.
 
 namespace octavo::io {
 

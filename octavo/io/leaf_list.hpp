@@ -8,8 +8,8 @@
 #include <octavo/io/write.hpp>
 #include <octavo/mesh/hex_mesh.hpp>
 
-// The cells of an octree mesh as lines of text: for codes that rebuild the tree themselves (deal.II, libMesh, p4est) and
-// refine level by level.
+// The cells of an octree mesh as lines of text: for codes that rebuild the tree themselves (deal.II, libMesh, p4est)
+// and refine level by level.
 //
 //     # octavo leaf list 1
 //     # origin X Y Z

@@ -11,9 +11,10 @@
 // OpenFOAM's polyMesh: a folder with points, faces, owner, neighbour, boundary, cellZones and cellLevel, in ASCII; and
 // where the case has none, the dictionaries of `system` without which no program of OpenFOAM starts.
 //
-// The folder constant/polyMesh of the case is written under another name and renamed when it is complete; a mesh that was
-// there is replaced, what else is there (sets, faceZones, blockMeshDict) stays, with a warning. An error or cancellation
-// leaves nothing that was not there. Names of patches and zones become words: what OpenFOAM does not allow turns into "_".
+// The folder constant/polyMesh of the case is written under another name and renamed when it is complete; a mesh that
+// was there is replaced, what else is there (sets, faceZones, blockMeshDict) stays, with a warning. An error or
+// cancellation leaves nothing that was not there. Names of patches and zones become words: what OpenFOAM does not allow
+// turns into "_".
 
 namespace octavo::io {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
-// The dictionaries without which no program of OpenFOAM starts: with them `checkMesh` and `paraFoam` run on a mesh at once.
-// They ask for nothing but one step of nothing; whoever computes something brings their own.
+// The dictionaries without which no program of OpenFOAM starts: with them `checkMesh` and `paraFoam` run on a mesh at
+// once. They ask for nothing but one step of nothing; whoever computes something brings their own.
 
 namespace octavo::io {
 

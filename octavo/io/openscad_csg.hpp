@@ -14,8 +14,8 @@
 //
 // Three steps, none of them recursive, so that no nesting overruns the stack: the text becomes tokens, the tokens a
 // flat syntax tree (openscad_csg_syntax.hpp), and of that the leaves are evaluated in order, then operations, children
-// before parents (openscad_csg_leaf.cpp, openscad_csg_inner.cpp). Flat geometry stays polygons; solids become a csg::Expr with the
-// primitives kept as primitives.
+// before parents (openscad_csg_leaf.cpp, openscad_csg_inner.cpp). Flat geometry stays polygons; solids become a
+// csg::Expr with the primitives kept as primitives.
 //
 // Meaning follows OpenSCAD 2021.01: children of the file, of groups and of transformations are united; an empty
 // first child makes a difference empty and an empty child an intersection; `%` parts are no geometry, `*` parts are

@@ -7,15 +7,16 @@
 #include <octavo/io/write.hpp>
 #include <octavo/mesh/hex_mesh.hpp>
 
-// p4est's forest files (`.p8est`, format 0x3000009): what p8est_load reads, for codes that adapt and partition with p4est.
+// p4est's forest files (`.p8est`, format 0x3000009): what p8est_load reads, for codes that adapt and partition with
+// p4est.
 //
 // The forest has one tree, the universe of the mesh as a cube with corners in world units. p4est knows complete trees
 // only: where the mesh has no cells the file has the fewest leaves that keep the tree balanced, and each leaf carries a
 // 32-bit integer that tells them apart, so that a code can drop them.
 //
-// Layout, little-endian, of docs/formats/hexmesh.md; found from files that p4est 2.2 wrote, and compared with them byte by
-// byte in the tests. The file does not say how long p4est's root is, and that changed: 2^19 up to release 2.2 (Debian
-// 12), 2^30 later. A file for the other root length loads as an invalid forest, so the user has to say.
+// Layout, little-endian, of docs/formats/hexmesh.md; found from files that p4est 2.2 wrote, and compared with them byte
+// by byte in the tests. The file does not say how long p4est's root is, and that changed: 2^19 up to release 2.2
+// (Debian 12), 2^30 later. A file for the other root length loads as an invalid forest, so the user has to say.
 
 namespace octavo::io {
 

@@ -9,9 +9,9 @@
 
 #include <octavo/base/result.hpp>
 
-// A folder that appears whole or not at all, as Output does it for a file: it is filled under another name beside its place
-// and renamed. What else is made on the way, folders above it or files near it, is removed again where it does not come to
-// that.
+// A folder that appears whole or not at all, as Output does it for a file: it is filled under another name beside its
+// place and renamed. What else is made on the way, folders above it or files near it, is removed again where it does
+// not come to that.
 
 namespace octavo::io {
 
@@ -34,9 +34,9 @@ class PartFolder {
     /// Remembers a file that was made near it.
     void made(std::filesystem::path file) { made_.push_back(std::move(file)); }
 
-    /// Puts the folder to its place, where a link is replaced and another folder gives way. Of that `replaces` says which names belong to the old
-    /// content; whatever else is in it was put there by others and is moved over, and the names of these are returned,
-    /// sorted. Error: io; then what was there still is.
+    /// Puts the folder to its place, where a link is replaced and another folder gives way. Of that `replaces` says
+    /// which names belong to the old content; whatever else is in it was put there by others and is moved over, and the
+    /// names of these are returned, sorted. Error: io; then what was there still is.
     Result<std::vector<std::string>> commit(const std::function<bool(std::string_view name)>& replaces);
 
   private:

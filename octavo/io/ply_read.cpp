@@ -163,8 +163,8 @@ class BodyReader {
             return Error{ErrorCode::limit, "has more than 4294967295 vertices", {}};
         for (const PlyElement& element : header_.elements) {
             if (element.count == 0) continue;
-            // Rows without properties take no bytes, so any number of them fits the file. Only those of vertices matter:
-            // faces may name them.
+            // Rows without properties take no bytes, so any number of them fits the file. Only those of vertices
+            // matter: faces may name them.
             if (element.properties.empty() && element.name != "vertex") continue;
             if (!element.properties.empty() && !values_.has_room(element.count, element))
                 return values_.error_here("the header announces " + std::to_string(element.count) +

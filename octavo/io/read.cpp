@@ -89,8 +89,8 @@ std::vector<std::string> remarks(const FileMesh& file) {
     return warnings;
 }
 
-/// A file without anything is an empty solid, which programs write when nothing is left of one. Vertices alone are points,
-/// or a file that was cut off.
+/// A file without anything is an empty solid, which programs write when nothing is left of one. Vertices alone are
+/// points, or a file that was cut off.
 Error no_facets(std::size_t vertices) {
     return {ErrorCode::bad_input, "has no facets, only " + counted(vertices, "vertex", "vertices"), {}};
 }

@@ -10,10 +10,10 @@
 #include <octavo/base/result.hpp>
 #include <octavo/mesh/mesh.hpp>
 
-// Reads meshes: STL, OBJ, PLY, OFF, 3MF and TetGen's .poly and .smesh by readers of our own, which take every decimal to the nearest
-// double and name the line or byte of what is wrong; some others (assimp_import.hpp) through assimp, which delivers
-// floats. Vertices and faces come in the order of the file. Nothing is repaired, and nothing is merged except
-// the bit-equal corners of formats that store loose triangles (STL, and those of assimp).
+// Reads meshes: STL, OBJ, PLY, OFF, 3MF and TetGen's .poly and .smesh by readers of our own, which take every decimal
+// to the nearest double and name the line or byte of what is wrong; some others (assimp_import.hpp) through assimp,
+// which delivers floats. Vertices and faces come in the order of the file. Nothing is repaired, and nothing is merged
+// except the bit-equal corners of formats that store loose triangles (STL, and those of assimp).
 
 namespace octavo::io {
 
@@ -56,9 +56,9 @@ struct ReadPolygons {
 };
 
 /// Reads the file `path`, or standard input when it is "-". Fails with ErrorCode::bad_input and a Place when
-/// the file is not what it claims to be or has vertices and no facets (without either it is an empty solid, with a warning),
-/// unsupported for what Octavo does not read, limit
-/// for more vertices or facets than 32-bit indices number, and io when the system refuses.
+/// the file is not what it claims to be or has vertices and no facets (without either it is an empty solid, with a
+/// warning), unsupported for what Octavo does not read, limit for more vertices or facets than 32-bit indices number,
+/// and io when the system refuses.
 Result<ReadMesh> read_mesh(const std::string& path, const ReadOptions& options = {},
                            const Context& context = {});
 

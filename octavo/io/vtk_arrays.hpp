@@ -11,8 +11,8 @@ namespace octavo::io {
 
 class VtkArrays {
   public:
-    /// Adds the array that `fill(put)` makes of calls put(value), and its element to `xml`. `type` is VTK's name of T, or
-    /// "Bit" for bytes of eight; `more` are further attributes, each with a blank before it.
+    /// Adds the array that `fill(put)` makes of calls put(value), and its element to `xml`. `type` is VTK's name of T,
+    /// or "Bit" for bytes of eight; `more` are further attributes, each with a blank before it.
     template <class T, class Fill>
     void add(std::string& xml, const char* type, const std::string& name, const std::string& more,
              const Fill& fill) {

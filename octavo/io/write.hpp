@@ -9,9 +9,9 @@
 #include <octavo/base/result.hpp>
 #include <octavo/mesh/mesh.hpp>
 
-// Writes triangle meshes: STL, OBJ, PLY, OFF, 3MF, and TetGen's .poly and .smesh. Numbers are written so that they read back as the same
-// doubles; only binary STL must round to floats, and says by how much. A mesh without facets is a legal
-// result and makes a legal empty file.
+// Writes triangle meshes: STL, OBJ, PLY, OFF, 3MF, and TetGen's .poly and .smesh. Numbers are written so that they read
+// back as the same doubles; only binary STL must round to floats, and says by how much. A mesh without facets is a
+// legal result and makes a legal empty file.
 
 namespace octavo::io {
 
@@ -22,7 +22,8 @@ enum class Encoding : std::uint8_t {
 };
 
 struct WriteOptions {
-    /// Name of the format ("stl", "obj", "ply", "off", "3mf", "poly", "smesh"); empty takes it from the file's extension.
+    /// Name of the format ("stl", "obj", "ply", "off", "3mf", "poly", "smesh"); empty takes it from the file's
+    /// extension.
     std::string format;
     Encoding encoding = Encoding::automatic;
     /// Unit of length to state where the format can (3MF): "micron", "millimeter", "centimeter", "inch",

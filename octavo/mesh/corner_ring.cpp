@@ -80,8 +80,8 @@ void bridge(std::vector<RingCorner>& nodes, std::uint32_t outer, std::uint32_t i
     nodes[outer_copy].previous = inner_copy;
 }
 
-/// The ring while holes are joined to it: its edges that run downwards by the rows of a table of heights, and its corners
-/// in a grid. Both only find what is then tested.
+/// The ring while holes are joined to it: its edges that run downwards by the rows of a table of heights, and its
+/// corners in a grid. Both only find what is then tested.
 class GrowingRing {
   public:
     GrowingRing(std::vector<RingCorner>& nodes, Contour outer)

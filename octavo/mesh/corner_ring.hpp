@@ -29,8 +29,8 @@ struct CornerRing {
 };
 
 /// The ring of the contours, which are corners [contour_begin[c], contour_begin[c + 1]); the first is the
-/// outer one and must run counter-clockwise. Holes may run either way. Near-linear where holes are spread out. `ring` is
-/// refilled, so that its memory can be used again.
+/// outer one and must run counter-clockwise. Holes may run either way. Near-linear where holes are spread out. `ring`
+/// is refilled, so that its memory can be used again.
 void build_ring(std::span<const Point2> positions, std::span<const std::uint32_t> contour_begin,
                 CornerRing& ring);
 

@@ -17,11 +17,11 @@
 // cross itself always has one, also when it touches itself (bridges to holes, pinched outlines); all tests
 // are exact, so the search does not get lost. Cutting an ear changes the status of its two neighbours only
 // (H. Meisters, "Polygons have ears", 1975; M. Held, "FIST: fast industrial-strength triangulation of
-// polygons", 2001, is the source of treating touching corners). A test looks only at corners that are not convex, through a
-// uniform grid that is built anew whenever half of them have gone. A corner that fails waits for the one that is in its
-// way and is not tested again before that one has gone, has become convex or (where it only touches) has other
-// neighbours. Near-linear in practice: 10^6 corners take 0.2 to 18 s (docs/formats/meshes.md). Going
-// round for ears whenever the queue ran dry instead, and looking at whole boxes round triangles, was quadratic.
+// polygons", 2001, is the source of treating touching corners). A test looks only at corners that are not convex,
+// through a uniform grid that is built anew whenever half of them have gone. A corner that fails waits for the one that
+// is in its way and is not tested again before that one has gone, has become convex or (where it only touches) has
+// other neighbours. Near-linear in practice: 10^6 corners take 0.2 to 18 s (docs/formats/meshes.md). Going round for
+// ears whenever the queue ran dry instead, and looking at whole boxes round triangles, was quadratic.
 //
 // Ears wait in a queue, so the cuts go round the outline evenly and a convex disc becomes a balanced
 // triangulation and not one fan of slivers.

@@ -13,9 +13,9 @@ using exact::Point;
 // A leaf has at most the pairs of so many facets. Smaller leaves list facets more often, larger ones have more pairs.
 constexpr double leaf_size = 24;
 
-// Splitting costs longer lists (facets in several octants) and pays in fewer pairs. Parallel slivers lie twice as often in
-// lists half as long: nothing gained, however small the cells. So a path keeps account of its waste, and stops where it
-// exceeds what all pairs of the list would cost; the divisor is entries that are split in the time of a pair.
+// Splitting costs longer lists (facets in several octants) and pays in fewer pairs. Parallel slivers lie twice as often
+// in lists half as long: nothing gained, however small the cells. So a path keeps account of its waste, and stops where
+// it exceeds what all pairs of the list would cost; the divisor is entries that are split in the time of a pair.
 // Counting levels in which lists do not shrink was tried: fans of a thousand slivers of aspect 10^4 took minutes.
 constexpr double least_waste = 8;
 constexpr double facets_per_waste = 32;
@@ -30,8 +30,9 @@ constexpr std::size_t least_settled = 16, most_settled = 8192;
 
 // Settling only after splitting had turned out not to pay was tried: no better on cones, minutes on bundles of slivers.
 
-// How many facets of a list are asked for a fan at their vertices. A hub among them costs a look at the list; vertices of
-// few facets are passed over unlooked, or else every list of an ordinary scan pays (a third more instructions in all).
+// How many facets of a list are asked for a fan at their vertices. A hub among them costs a look at the list; vertices
+// of few facets are passed over unlooked, or else every list of an ordinary scan pays (a third more instructions in
+// all).
 constexpr std::size_t fan_samples = 4;
 
 // Facets of a task. Small enough for eight threads to share 100K facets, large enough that the lists of the tasks

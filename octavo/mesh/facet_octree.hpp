@@ -24,7 +24,8 @@
 //    are visited at once, in the large cell; below, they are *settled* and visited only with what is fresh.
 //  * The n² pairs of a fan round one vertex lie wherever the cell at that vertex is cut. But what two facets with a
 //    common vertex have in common beyond it ends on a side opposite to the vertex. In a cell without such a side of
-//    either the pair has nothing to show, so the facets of a fan that do not end in the cell are settled there for free.
+//    either the pair has nothing to show, so the facets of a fan that do not end in the cell are settled there for
+//    free.
 //  * Splitting costs longer lists and pays in fewer pairs; paths on which it does not pay end.
 //
 // octree::descend is not used here: it delivers leaves in Morton order with a description each and forks by

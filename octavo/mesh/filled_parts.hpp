@@ -10,11 +10,11 @@
 // How much of each cell all solids together fill, from how much each of them does.
 //
 // Problem: parts of solids that overlap must not be added, those of solids that only touch must.
-// Idea: solids overlap where one lies in a cell that another one fills, or where two fill more than the cell. A cell is filled as
-// its most filled solids fill it that were not seen to overlap each other anywhere. That is exact where solids are disjoint,
-// equal or nested; where they cross it is the part of the larger ones, less than the truth. Only overlaps that are nowhere larger
-// than a cell are not seen, and count twice.
-// Cost: one pass over the cells, another one over those of several solids.
+// Idea: solids overlap where one lies in a cell that another one fills, or where two fill more than the cell. A cell is
+// filled as its most filled solids fill it that were not seen to overlap each other anywhere. That is exact where
+// solids are disjoint, equal or nested; where they cross it is the part of the larger ones, less than the truth. Only
+// overlaps that are nowhere larger than a cell are not seen, and count twice. Cost: one pass over the cells, another
+// one over those of several solids.
 
 namespace octavo::mesh {
 

@@ -81,8 +81,8 @@ struct Joints {
     }
 };
 
-/// Takes out sides that meet two halves, and these: what a layer of cells has where a large side of the boundary under it
-/// meets two smaller ones. Returns the halves.
+/// Takes out sides that meet two halves, and these: what a layer of cells has where a large side of the boundary under
+/// it meets two smaller ones. Returns the halves.
 std::vector<InnerSide> take_halved(const HexMesh& mesh, std::vector<HexSide>& sides) {
     std::vector<std::pair<std::uint64_t, NodeIndex>> middles;
     for (const EdgeHangingNode& hanging : mesh.edge_hanging)
@@ -125,7 +125,8 @@ std::vector<InnerSide> take_halved(const HexMesh& mesh, std::vector<HexSide>& si
     return halves;
 }
 
-/// Calls `shared(side, other)` for each side that two cells have, from the first of them, and `alone(side)` for the others.
+/// Calls `shared(side, other)` for each side that two cells have, from the first of them, and `alone(side)` for the
+/// others.
 template <class Shared, class Alone>
 void for_each_side(const HexMesh& mesh, const Shared& shared, const Alone& alone) {
     std::vector<Entry> entries;

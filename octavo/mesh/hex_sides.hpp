@@ -9,11 +9,11 @@
 
 // The sides of hexahedra that bound the mesh.
 //
-// Two cells of one size share a side with the same four corners. A larger cell and four smaller ones share none, but the
-// node in the middle of the larger side hangs, and its masters name both: the larger side by its corners, each
-// smaller one by a master and the hanging node at opposite corners. In a layer of cells a larger side may meet two halves:
-// the middles of two opposite edges hang. What is left is boundary. No coordinate is looked
-// at, so the mesh may be fitted to a surface or conforming. Cost: one sort of all sides, about 0.6 µs a cell.
+// Two cells of one size share a side with the same four corners. A larger cell and four smaller ones share none, but
+// the node in the middle of the larger side hangs, and its masters name both: the larger side by its corners, each
+// smaller one by a master and the hanging node at opposite corners. In a layer of cells a larger side may meet two
+// halves: the middles of two opposite edges hang. What is left is boundary. No coordinate is looked at, so the mesh may
+// be fitted to a surface or conforming. Cost: one sort of all sides, about 0.6 µs a cell.
 
 namespace octavo::mesh {
 
@@ -53,7 +53,8 @@ struct BoundarySides {
 inline constexpr std::array<std::array<std::uint8_t, 4>, 6> corners_of_side{
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
-/// Sides whose four corners only one cell has, by cell: the boundary, and both sides of joints between cells of two sizes.
+/// Sides whose four corners only one cell has, by cell: the boundary, and both sides of joints between cells of two
+/// sizes.
 std::vector<HexSide> unshared_sides(const HexMesh& mesh);
 
 BoundarySides boundary_sides(const HexMesh& mesh);

@@ -142,9 +142,9 @@ Result<Repaired> repair(const Mesh& mesh, const Context& context) {
     of(RepairKind::dropped_collapsed_facets) = drop_collapsed_facets(soup);
     if (!goes_on(0.2)) return Context::cancelled_error();
 
-    // What is turned may face what it faced away from, and cancel it; what is dropped may let facets be turned; and where
-    // shells cross themselves one that has been turned may look otherwise than before. Mostly there is one round, and
-    // two where something was turned.
+    // What is turned may face what it faced away from, and cancel it; what is dropped may let facets be turned; and
+    // where shells cross themselves one that has been turned may look otherwise than before. Mostly there is one round,
+    // and two where something was turned.
     constexpr int most_turns_in_a_row = 16;
     for (int turns_in_a_row = 0;;) {
         if (simplify(soup, done)) turns_in_a_row = 0;

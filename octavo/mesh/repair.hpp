@@ -12,27 +12,27 @@
 
 // Mends what can be mended without guessing, and says what it did.
 //
-// No vertex moves, no hole is filled and nothing is cut: the surface stays the same set of points, but for walls and flaps
-// of no thickness. What is closed stays closed. In this order:
+// No vertex moves, no hole is filled and nothing is cut: the surface stays the same set of points, but for walls and
+// flaps of no thickness. What is closed stays closed. In this order:
 //
 //  1. Vertices at bit-equal positions become one; facets that then name a vertex twice are dropped.
-//  2. Of facets with the same corners, pairs that face each other cancel, and of those that face the same way one stays,
-//     unless edges need the others: two bodies may share a facet (drop_repeated.cpp). A last pair back to back goes where
-//     other facets go on at every edge of the wall's rim (a wall inside) or at some (a flap, the commonest defect of parts
-//     for printing) and stay closed without it; sheets that are double-sided as a whole stay, as no one knows what they
-//     mean.
+//  2. Of facets with the same corners, pairs that face each other cancel, and of those that face the same way one
+//     stays, unless edges need the others: two bodies may share a facet (drop_repeated.cpp). A last pair back to back
+//     goes where other facets go on at every edge of the wall's rim (a wall inside) or at some (a flap, the commonest
+//     defect of parts for printing) and stay closed without it; sheets that are double-sided as a whole stay, as no one
+//     knows what they mean.
 //  3. A facet without area is a vertex on the long side of its neighbour: the side is flipped, which splits the
 //     neighbour at the vertex and opens nothing. Where that side has no or several neighbours the facet stays.
 //  4. Facets are turned so that neighbours agree, as few as possible; surfaces with one side only stay.
-//  5. Shells and parts of them that are inside out are turned, together with what is in them: where winding numbers were
-//     negative they become positive, elsewhere they stay (turn_shells.cpp).
+//  5. Shells and parts of them that are inside out are turned, together with what is in them: where winding numbers
+//     were negative they become positive, elsewhere they stay (turn_shells.cpp).
 //  6. If that has turned anything, 2 to 5 once more: what faces each other now may cancel.
 //  7. Edges with four facets and more are separated into pairs, if their facets alternate round the edge: then it is
 //     certain which bound the same solid. Surfaces that touch in a vertex get one each. Both repeat positions.
 //  8. Vertices that no facet uses are dropped.
 //
-// Invariant: repair(repair(x)) is repair(x). A solid without negative winding numbers and repeated facets stays the same
-// solid.
+// Invariant: repair(repair(x)) is repair(x). A solid without negative winding numbers and repeated facets stays the
+// same solid.
 
 namespace octavo::mesh {
 

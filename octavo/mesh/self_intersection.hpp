@@ -13,8 +13,8 @@
 //
 // Facets that share a vertex are the bulk of all near pairs, and a broad phase would find each of them again
 // and again; they are taken from the vertices' stars instead, each once. The rest, and the stars of vertices with very
-// many facets, are found by an octree descent over lists of facets (facet_octree.hpp), which keeps slivers and fans from
-// costing n². Pairs are tested box by box, then exactly (facet_pair.hpp).
+// many facets, are found by an octree descent over lists of facets (facet_octree.hpp), which keeps slivers and fans
+// from costing n². Pairs are tested box by box, then exactly (facet_pair.hpp).
 //
 // Cost: armadillo (346K facets) 0.2 s on one core, memory 60 bytes a facet. Results are sorted: they do not
 // depend on the number of threads.

@@ -18,8 +18,9 @@ struct Snapped {
     SnapReport report;
 };
 
-/// Snaps each vertex to `lattice`; those that no facet uses may be anywhere, and go where a used one is. Vertices keep their
-/// indices, even when two meet in one point. Errors: bad_input when a used one is not finite or lies outside the universe.
+/// Snaps each vertex to `lattice`; those that no facet uses may be anywhere, and go where a used one is. Vertices keep
+/// their indices, even when two meet in one point. Errors: bad_input when a used one is not finite or lies outside the
+/// universe.
 Result<Snapped> snap(const Mesh& mesh, const exact::Lattice& lattice);
 
 /// Snaps to the finest lattice that contains the facets.

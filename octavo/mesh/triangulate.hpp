@@ -40,8 +40,8 @@ struct Triangulation {
 class Triangulator {
   public:
     Triangulator() = default;
-    /// Once `context`, which must outlive the triangulator, is cancelled, the triangles of a large polygon mean nothing:
-    /// ask it after each.
+    /// Once `context`, which must outlive the triangulator, is cancelled, the triangles of a large polygon mean
+    /// nothing: ask it after each.
     explicit Triangulator(const Context& context) : context_(&context) {}
 
     /// A polygon with one contour. Fewer than three corners give no triangle and `degenerate`.

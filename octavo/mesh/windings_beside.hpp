@@ -13,12 +13,12 @@
 // Problem: winding numbers are constant where no facet is, and change at facets alone; so what there is to know about
 // them is known in front of every facet and behind it. But places on a surface are where every degenerate case is:
 // other shells touch there, lie flush, share edges or coincide.
-// Idea: a place is the middle of a facet, moved by a symbolic step off the facet that is smaller than anything else, and
-// from there a ray to the left counts its crossings. Further, far smaller steps to the left, along y and along z make it
-// general, so it meets no edge and no vertex: signs are those of the value, or of the derivative along the first step
-// that is not zero (H. Edelsbrunner, E. P. Mücke, "Simulation of simplicity", 1990).
-// Invariant: facets that share an edge agree about it, so that every closed shell has one winding number at a place.
-// Cost: facets look up the places in a grid over y and z: linear, unless the facets are large and the places many.
+// Idea: a place is the middle of a facet, moved by a symbolic step off the facet that is smaller than anything else,
+// and from there a ray to the left counts its crossings. Further, far smaller steps to the left, along y and along z
+// make it general, so it meets no edge and no vertex: signs are those of the value, or of the derivative along the
+// first step that is not zero (H. Edelsbrunner, E. P. Mücke, "Simulation of simplicity", 1990). Invariant: facets that
+// share an edge agree about it, so that every closed shell has one winding number at a place. Cost: facets look up the
+// places in a grid over y and z: linear, unless the facets are large and the places many.
 
 namespace octavo::mesh {
 

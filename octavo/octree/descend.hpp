@@ -72,8 +72,8 @@
 // once.
 //
 // Memory: a depth of 21 allows 8^21 nodes, so the nodes are counted and a limit stops the descent. Counted are nodes
-// that stay, when the cell above them is done and they were not merged: their number is that of the result, the same for
-// any number of threads, and what is held beside them is eight nodes a level.
+// that stay, when the cell above them is done and they were not merged: their number is that of the result, the same
+// for any number of threads, and what is held beside them is eight nodes a level.
 //
 // Small example, the cells of level ≤ 5 of the half space x < 1000 (no list, so nothing to store):
 //

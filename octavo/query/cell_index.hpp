@@ -15,17 +15,17 @@
 //
 // Problem: a dependent load beyond the cache costs as much as a hundred instructions, and an octree of pointers makes
 // one a level. Idea: a dense table of the top levels, and below it bricks of 4×4×4 cells. Most cells of a brick are
-// white or black, and a leaf of a coarser level fills eight in a row, so a brick is three masks of 64 bits and a word for
-// each leaf or brick in it. Two masks tell the kind of each cell, the third where a new word begins; which word is a
-// cell's is a count of its bits. The records of its gray leaves follow the brick, so that they arrive with it:
+// white or black, and a leaf of a coarser level fills eight in a row, so a brick is three masks of 64 bits and a word
+// for each leaf or brick in it. Two masks tell the kind of each cell, the third where a new word begins; which word is
+// a cell's is a count of its bits. The records of its gray leaves follow the brick, so that they arrive with it:
 //
 //     brick:  │ A │ B │ C │ word │ word │ … │ record │ record │ …
 //             └ 8 bytes each ┘ one for each bit of C
 //
 //     kind of cell i = bits i of A and B: 00 white, 10 black, 01 gray, 11 brick
 //
-// The kinds of cells one level below the table are also kept apart, two bits each: at most 512 KiB, which stay in the cache,
-// tell nineteen of twenty places in a box what they are.
+// The kinds of cells one level below the table are also kept apart, two bits each: at most 512 KiB, which stay in the
+// cache, tell nineteen of twenty places in a box what they are.
 //
 // Invariant: every place has one leaf. Cost: 24 bytes a brick and 4 a leaf, a quarter of a word for every cell, for two
 // more instructions a level.
@@ -50,8 +50,8 @@ class CellIndex {
     };
 
     CellIndex() = default;
-    /// Leaves in Morton order that fill the universe, and the records that the gray ones point to (leaf_record.hpp), which
-    /// are copied. Twice the leaves and the words of the records must be fewer than 2^30.
+    /// Leaves in Morton order that fill the universe, and the records that the gray ones point to (leaf_record.hpp),
+    /// which are copied. Twice the leaves and the words of the records must be fewer than 2^30.
     CellIndex(std::span<const Item> items, std::span<const std::uint32_t> records);
 
     /// White or black where all of the place's cell one level below the table is; from memory that is nearly always in

@@ -50,7 +50,8 @@ Closest ClosestQuery::answer(Vec3 world, const FixedPoint& q, const NearestTrian
     // Differences and minors of lattice points are exact doubles.
     const Vec3 n = octavo::cross(corner(1) - corner(0), corner(2) - corner(0));
     if (!(n == Vec3{})) closest.normal = (1 / length(n)) * n;
-    // A point on the surface may have been rounded off it; one on what closes an open surface may be far from all facets.
+    // A point on the surface may have been rounded off it; one on what closes an open surface may be far from all
+    // facets.
     double units = std::sqrt(nearest.feature.squared_distance);
     if (side == Side::on && units <= FixedPoint::resolution) units = 0;
     double distance = units * lattice_.unit();

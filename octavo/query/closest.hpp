@@ -16,8 +16,8 @@
 
 // Signed distance, nearest point, triangle and normal, exact and everywhere.
 //
-// A walk over boxes of eight (closest_search.hpp) finds the few triangles that floats cannot exclude; those are compared
-// exactly (triangle_distance.hpp). The sign is that of InsideQuery: negative inside (winding number > 0).
+// A walk over boxes of eight (closest_search.hpp) finds the few triangles that floats cannot exclude; those are
+// compared exactly (triangle_distance.hpp). The sign is that of InsideQuery: negative inside (winding number > 0).
 //
 // Exact means: for the lattice mesh and the point to 62 bits (FixedPoint), the triangle is a nearest one; the distance
 // is its true distance rounded, to a few units in the last place of a double. The sign is that of the point itself, to
@@ -41,9 +41,9 @@ struct ClosestOptions {
     /// Without a sign distances are positive everywhere, the mesh may be open, and half of the memory is saved.
     enum class Sign : std::uint8_t { inside_negative, none };
     Sign sign = Sign::inside_negative;
-    /// The sign costs a fifth of the distance at most, so it may take a little longer for two thirds of the memory. Where
-    /// OpenPolicy::winding closes an open surface, the sign is that of the closed solid; distances are to the facets of the
-    /// mesh alone, and positive on what closes it.
+    /// The sign costs a fifth of the distance at most, so it may take a little longer for two thirds of the memory.
+    /// Where OpenPolicy::winding closes an open surface, the sign is that of the closed solid; distances are to the
+    /// facets of the mesh alone, and positive on what closes it.
     InsideOptions inside{.leaf_facets = 8};
 };
 

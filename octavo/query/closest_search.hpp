@@ -6,9 +6,9 @@
 #include <octavo/query/closest_tree.hpp>
 #include <octavo/query/triangle_distance.hpp>
 
-// The walk to the nearest triangle: depth first, nearest child first. It keeps an upper bound of the distance and the few
-// triangles that floats cannot exclude, and compares those exactly at the end. Of equally near triangles the one with
-// the lowest number is the answer, so it does not depend on the order of the walk.
+// The walk to the nearest triangle: depth first, nearest child first. It keeps an upper bound of the distance and the
+// few triangles that floats cannot exclude, and compares those exactly at the end. Of equally near triangles the one
+// with the lowest number is the answer, so it does not depend on the order of the walk.
 
 namespace octavo::query {
 

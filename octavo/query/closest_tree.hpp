@@ -12,11 +12,11 @@
 // Boxes of boxes of triangles, eight at a time: where the search for the nearest triangle walks.
 //
 // Problem: the nearest triangle of a point far off lies behind many boxes that stand nearer than their triangles,
-// because boxes along the axes stand off a slanting surface by their own size. Idea: each child has a box that is turned
-// so as to lie on its patch of surface (turned_box.hpp), and only a few remain. Nodes hold eight of them, compared side
-// by side, leaves up to eight triangles, measured side by side. All in floats, which are enough to *exclude*: boxes
-// are rounded outwards, and what is not excluded is decided exactly (triangle_distance.hpp), from the whole numbers
-// that the leaves hold.
+// because boxes along the axes stand off a slanting surface by their own size. Idea: each child has a box that is
+// turned so as to lie on its patch of surface (turned_box.hpp), and only a few remain. Nodes hold eight of them,
+// compared side by side, leaves up to eight triangles, measured side by side. All in floats, which are enough to
+// *exclude*: boxes are rounded outwards, and what is not excluded is decided exactly (triangle_distance.hpp), from the
+// whole numbers that the leaves hold.
 //
 //     along the axes ┌──────┐   turned   ╱╲     a point at distance d looks into all boxes nearer than d:
 //                    │    ╱ │           ╱╱      many of the thick ones, few of the thin ones

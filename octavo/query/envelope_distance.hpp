@@ -12,10 +12,10 @@
 // Two cheaper answers than the exact distance, from a BP-octree.
 //
 // `EnvelopeDistance` bounds the distance from below by the envelopes of one level: what a reader of the first kilobytes
-// of a file can tell. A node's bound is the largest of how far the point lies beyond its cell, beyond each of its planes,
-// and its parent's bound, so bounds only grow downwards and the node with the least is opened first. Its error: the
-// bound is never more than the distance from the solid, 0 within an envelope, and less where an envelope stands off the
-// solid or where the nearest point of an envelope lies on an edge of it.
+// of a file can tell. A node's bound is the largest of how far the point lies beyond its cell, beyond each of its
+// planes, and its parent's bound, so bounds only grow downwards and the node with the least is opened first. Its error:
+// the bound is never more than the distance from the solid, 0 within an envelope, and less where an envelope stands off
+// the solid or where the nearest point of an envelope lies on an edge of it.
 //
 // `distance_in_leaf` looks at the triangles of the point's own leaf only, as the thesis's haptic rendering does (F. J.
 // Melero, BP-Octree, 2008, section 5.2.2). Its error: the nearest triangle may lie in another leaf; the answer says

@@ -11,9 +11,9 @@
 
 // Memory for arrays that are looked up at random places.
 //
-// With pages of 4 KiB nearly every such look-up beyond some megabytes misses the TLB too, and walking the page table costs
-// as much as the load itself. Where the system has pages of 2 MiB for those who ask (Linux does), arrays of that size
-// ask for them. Only whole large pages are asked for, so an array takes no more memory than before.
+// With pages of 4 KiB nearly every such look-up beyond some megabytes misses the TLB too, and walking the page table
+// costs as much as the load itself. Where the system has pages of 2 MiB for those who ask (Linux does), arrays of that
+// size ask for them. Only whole large pages are asked for, so an array takes no more memory than before.
 
 namespace octavo::query {
 

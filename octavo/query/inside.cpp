@@ -15,7 +15,8 @@ namespace {
 
 inline void prefetch(const void* address) { __builtin_prefetch(address); }
 
-/// Rounds down what is below 2^53. Where floor is no instruction, calling it costs more than the rest of finding a place.
+/// Rounds down what is below 2^53. Where floor is no instruction, calling it costs more than the rest of finding a
+/// place.
 inline double floor_of(double x) {
 #ifdef __SSE4_1__
     return std::floor(x);

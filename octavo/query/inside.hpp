@@ -25,8 +25,8 @@
 // change the winding number (simulation of simplicity, see classic/crossing.hpp); the signs are those of linear forms
 // at double points, by a filter first and exactly where that fails.
 //
-// Locating is made of few dependent loads (cell_index.hpp), and a leaf is one record (leaf_record.hpp) beside its brick.
-// A batch runs many points through these loads side by side, so that their cache misses overlap.
+// Locating is made of few dependent loads (cell_index.hpp), and a leaf is one record (leaf_record.hpp) beside its
+// brick. A batch runs many points through these loads side by side, so that their cache misses overlap.
 //
 // Rules at the rim: a point with an infinite coordinate is outside; one with a NaN lies nowhere and is reported as
 // outside too.
@@ -51,9 +51,10 @@ struct InsideOptions {
     /// The deepest level, at most 21. Around a vertex with more facets than `leaf_facets` splitting would not end.
     int depth = 12;
     /// For each facet of the solid so many references to facets, 4 bytes each, in all leaves together at most: the
-    /// memory is linear whatever the shape. Scans need 10. Slivers side by side and surfaces like the pages of a book get
-    /// 90: a cell is split only if even all of its facets in all octants were within the bound. Of cylinders with 10 000
-    /// sides twice as many make a query near the surface 1.7 times as fast, for twice the memory and time to build.
+    /// memory is linear whatever the shape. Scans need 10. Slivers side by side and surfaces like the pages of a book
+    /// get 90: a cell is split only if even all of its facets in all octants were within the bound. Of cylinders with
+    /// 10 000 sides twice as many make a query near the surface 1.7 times as fast, for twice the memory and time to
+    /// build.
     int references = 512;
 };
 
@@ -120,7 +121,8 @@ struct InsideQuery::Begun {
     CellIndex::Entry entry;  ///< of the table, where the kind alone does not tell
 };
 
-/// One-off: builds an InsideQuery and asks it. Worth it from some hundred points on. Errors: as build, while asking too.
+/// One-off: builds an InsideQuery and asks it. Worth it from some hundred points on. Errors: as build, while asking
+/// too.
 Result<std::vector<Side>> contains(const mesh::Mesh& mesh, std::span<const Vec3> points,
                                    const InsideOptions& options = {}, const Context& context = {});
 

@@ -8,8 +8,8 @@
 #include <octavo/query/bare_facets.hpp>
 #include <octavo/query/inside.hpp>
 
-// Building the inside query: the descent of the classic octree, whose leaves, which come in Morton order, become records
-// and items of the index.
+// Building the inside query: the descent of the classic octree, whose leaves, which come in Morton order, become
+// records and items of the index.
 
 namespace octavo::query {
 namespace {
@@ -77,9 +77,9 @@ class LeafList {
 
 /// Where surfaces lie beside each other like the pages of a book no splitting separates them: each of a thousand pages
 /// runs through four octants, and down to cells that hold one alone leaves would hold a million references. So the
-/// references are rationed. A cell is split when even the worst, all facets in all octants, is within its ration; leaves
-/// take of it what they hold, and the rest goes to the other octants by their facets. Rations depend on the cell alone,
-/// not on order or threads.
+/// references are rationed. A cell is split when even the worst, all facets in all octants, is within its ration;
+/// leaves take of it what they hold, and the rest goes to the other octants by their facets. Rations depend on the cell
+/// alone, not on order or threads.
 class InsideProblem {
   public:
     using Description = Share;
@@ -215,8 +215,8 @@ Result<InsideQuery> InsideQuery::build(const mesh::LatticeMesh& mesh, const Insi
     descent.phase = "inside";
     Result<LeafList> leaves = octree::descend(InsideProblem(*facets, options), context, descent);
     if (!leaves) return leaves.error();
-    // Values of the index have 30 bits. A brick has six words and stands for a split cell of its own, of which there are a
-    // seventh of the leaves; a leaf has one word and its record.
+    // Values of the index have 30 bits. A brick has six words and stands for a split cell of its own, of which there
+    // are a seventh of the leaves; a leaf has one word and its record.
     if (leaves->records.size() + 2 * leaves->items.size() >= std::size_t{1} << 30)
         return Error{ErrorCode::limit, "the inside query has more leaves than it can number", {}};
 

@@ -15,9 +15,9 @@
 // exact test decides.
 //
 // Bounds, with u = 2^-53 and L a bound of all coordinates relative to R, of corners and of the point. Corners are
-// exact, the point rounds once or twice, by u L in all. An edge function is two products of differences (2L, off by 3 u L) and their
-// difference: off by 40 u L² at most. A component of the normal (8 L²) is off by 16 u L², the plane's value at R by
-// 112 u L³, and each step adds 64, 72 and 80 u L³. 64 and 512 are used.
+// exact, the point rounds once or twice, by u L in all. An edge function is two products of differences (2L, off by 3 u
+// L) and their difference: off by 40 u L² at most. A component of the normal (8 L²) is off by 16 u L², the plane's
+// value at R by 112 u L³, and each step adds 64, 72 and 80 u L³. 64 and 512 are used.
 
 namespace octavo::query {
 

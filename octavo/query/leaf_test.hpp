@@ -15,7 +15,8 @@ namespace octavo::query {
 
 /// A point of the world as the lattice sees it: world = (origin + whole + part) · unit with 0 ≤ part ≤ 1. The whole
 /// numbers are exact. So are the parts, but for coordinates from -1/2 to 0 units of the world, one of which rounds by
-/// up to 2^-54 and may come out as 1; and for underflow. So they serve filters only, and exact signs are taken at `world`.
+/// up to 2^-54 and may come out as 1; and for underflow. So they serve filters only, and exact signs are taken at
+/// `world`.
 struct LatticePlace {
     Vec3 world;
     std::array<std::int32_t, 3> whole;

@@ -6,13 +6,13 @@
 #include <octavo/bp_octree/bpo_reader.hpp>
 #include <octavo/query/inside.hpp>
 
-// Inside, on or outside, answered from a .bpo file where it lies: each answer reads the few chunks that its place needs,
-// and the first one comes within milliseconds. For thousands of points, decode the file and ask an InsideQuery.
+// Inside, on or outside, answered from a .bpo file where it lies: each answer reads the few chunks that its place
+// needs, and the first one comes within milliseconds. For thousands of points, decode the file and ask an InsideQuery.
 //
 // A leaf of a BP-octree knows the winding number at its low corner and the triangles that meet it, which is what
-// leaf_test.hpp wants; only that its corners lie at half-integers of the lattice. So the test runs on a lattice of half the
-// unit, where coordinates have 27 bits: normals 4 · 53 bits wide with two zeros at the end, still exact doubles; the
-// products of coefficients (56 bits) and origins (54) fit int128.
+// leaf_test.hpp wants; only that its corners lie at half-integers of the lattice. So the test runs on a lattice of half
+// the unit, where coordinates have 27 bits: normals 4 · 53 bits wide with two zeros at the end, still exact doubles;
+// the products of coefficients (56 bits) and origins (54) fit int128.
 
 namespace octavo::query {
 

@@ -78,8 +78,8 @@ enum class Region : std::uint8_t { a, b, c, ab, ac, bc, face };
 /// follows.
 ///
 /// With A the magnitudes of both edges and Q those of q − a, summed: all scalar products are below A (Q + A one) and
-/// err by less than 2^-49 of that (each factor is rounded once, each of three products and two sums too, and differences
-/// of three of them), products of two by 2^-46 of its square.
+/// err by less than 2^-49 of that (each factor is rounded once, each of three products and two sums too, and
+/// differences of three of them), products of two by 2^-46 of its square.
 std::optional<Region> region_by_filter(const Difference& edge_b, const Difference& edge_c,
                                        const Difference& from_a, double one) {
     const Vec3 ab = rounded(edge_b), ac = rounded(edge_c), qa = rounded(from_a);
@@ -280,7 +280,8 @@ Vec3 nearest_point(const FixedPoint& q, const NearestFeature& feature) {
         const double t = static_cast<double>(dot(n, qa)) / length2 * step;
         return q.approximation() - t * to_vector(n);
     }
-    // From afar the foot would be lost in the difference of the point and the way to it, so it is found in the triangle.
+    // From afar the foot would be lost in the difference of the point and the way to it, so it is found in the
+    // triangle.
     const double beta = to_double(determinant(n, qa, ac)) / length2 * step,
                  gamma = to_double(determinant(n, ab, qa)) / length2 * step;
     return base + beta * to_vector(ab) + gamma * to_vector(ac);

@@ -17,8 +17,9 @@
 // integer expressions (the order of tests is that of C. Ericson, Real-Time Collision Detection, 2005, 5.1.5). Squared
 // distances are fractions; they are compared as doubles when these differ by more than their error, else exactly.
 //
-// Rule: shift is 36 for points in the universe, so each coordinate is rounded by at most 2^-37 lattice units, 2^-63 of the
-// universe; points farther out keep 62 bits of the largest coordinate, points beyond 2^61 units keep their direction.
+// Rule: shift is 36 for points in the universe, so each coordinate is rounded by at most 2^-37 lattice units, 2^-63 of
+// the universe; points farther out keep 62 bits of the largest coordinate, points beyond 2^61 units keep their
+// direction.
 //
 // Widths: differences q − a 63, edges 26, their scalar products 91, edge × difference 90, normal · difference 118;
 // squared distances: vertex 128, edge 182 over 54, face 236 over 108; crosswise products 344.

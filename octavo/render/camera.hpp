@@ -24,8 +24,8 @@ constexpr double widest_view = 120;
 
 class Camera {
   public:
-    /// A camera that has all of `points` in a picture of this size, in pixels. Errors: bad_input when there are none, one
-    /// is not finite, or the view is outside its limits.
+    /// A camera that has all of `points` in a picture of this size, in pixels. Errors: bad_input when there are none,
+    /// one is not finite, or the view is outside its limits.
     static Result<Camera> look_at(std::span<const Vec3> points, const View& view, int width, int height);
 
     /// The same for the corners of a box.

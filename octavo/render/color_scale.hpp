@@ -17,9 +17,9 @@ constexpr bool has_room_for_color_scale(int width, int height) {
     return width >= 2 * color_scale_width && height >= 120;
 }
 
-/// Draws a bar in the colours from `least`, below, to `greatest`, with numbers beside it, to the right of the picture. Digits
-/// are drawn as lines, so that the picture is the same wherever it is made, whatever fonts there are. Precondition:
-/// there is room for it. Error: limit when there is no memory.
+/// Draws a bar in the colours from `least`, below, to `greatest`, with numbers beside it, to the right of the picture.
+/// Digits are drawn as lines, so that the picture is the same wherever it is made, whatever fonts there are.
+/// Precondition: there is room for it. Error: limit when there is no memory.
 Status add_color_scale(Image& image, double least, double greatest);
 
 }  // namespace octavo::render

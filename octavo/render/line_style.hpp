@@ -7,9 +7,9 @@
 
 namespace octavo::render::line_style {
 
-/// Viewers smooth each area for itself, so that the paper shines through where two meet. A stroke in the area's own colour
-/// closes the seam: half a pixel on either side is what it takes for no paper to be left in any pixel (a quarter leaves
-/// 6 %), and lines cover as much at silhouettes.
+/// Viewers smooth each area for itself, so that the paper shines through where two meet. A stroke in the area's own
+/// colour closes the seam: half a pixel on either side is what it takes for no paper to be left in any pixel (a quarter
+/// leaves 6 %), and lines cover as much at silhouettes.
 inline constexpr double seam_width = 1;
 
 /// Of a hidden line, as a share of a visible one's, and its dashes and gaps, in widths of a visible line.

@@ -39,7 +39,8 @@ Drawn drawn_leaves(const octree::Octree& tree, const OctreeSceneOptions& options
     return drawn;
 }
 
-/// The four corners of a cell's wall, counter-clockwise seen from outside; `high` is the wall at the high end of `axis`.
+/// The four corners of a cell's wall, counter-clockwise seen from outside; `high` is the wall at the high end of
+/// `axis`.
 std::array<Vec3, 4> wall(const exact::Lattice& lattice, const Cell& cell, int axis, bool high) {
     const exact::Point low = cell.low, top = cell.high();
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;

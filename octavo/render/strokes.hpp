@@ -8,8 +8,8 @@
 #include <octavo/render/scene.hpp>
 #include <octavo/render/visible.hpp>
 
-// From parts of lines to strokes: what meets end to end, where nothing branches off, becomes one stroke, so that corners
-// are joined and dashes run on. Parts that come twice are drawn once.
+// From parts of lines to strokes: what meets end to end, where nothing branches off, becomes one stroke, so that
+// corners are joined and dashes run on. Parts that come twice are drawn once.
 
 namespace octavo::render {
 

@@ -14,10 +14,10 @@
 // What of patches and lines can be seen: hidden parts removed, in the plane of the picture.
 //
 // The picture is divided into squares, and these into four, until few patches touch a square; what lies behind a patch
-// that covers a square is dropped on the way. In a square, the area that nothing covers yet is a set of convex polygons,
-// the square itself at first. Patch by patch from the front, what of it lies in the patch is a visible piece, and the
-// rest goes on. So pieces never overlap, and together they are all that the patches cover, by construction: a wrong
-// answer is impossible, rounding moves borders by 10^-8 pixels.
+// that covers a square is dropped on the way. In a square, the area that nothing covers yet is a set of convex
+// polygons, the square itself at first. Patch by patch from the front, what of it lies in the patch is a visible piece,
+// and the rest goes on. So pieces never overlap, and together they are all that the patches cover, by construction: a
+// wrong answer is impossible, rounding moves borders by 10^-8 pixels.
 //
 // A line is hidden where it lies in a patch, in the picture, and behind its plane by more than `tolerance` units of the
 // lattice; the order of patches is not needed for it. What has no area can lie in a face and must not vanish there.

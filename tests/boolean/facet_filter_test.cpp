@@ -15,8 +15,8 @@
 #include "effort.hpp"
 #include "solids.hpp"
 
-// A filter may pass what it likes but must never drop a pair that meets. The oracle tries all vertices and edges in 128-bit
-// integers.
+// A filter may pass what it likes but must never drop a pair that meets. The oracle tries all vertices and edges in
+// 128-bit integers.
 
 namespace octavo::boolean {
 namespace {

@@ -157,7 +157,8 @@ TEST(Flush, ClosesSlabsSlitsAndStepsOfItsOwnWidth) {
 
 /// Bodies that are flush or touch in edges and corners by chance, turned: shells and volume are those of the grid.
 TEST(Flush, GivesRandomTurnedAssembliesTheShellsAndVolumeOfTheGrid) {
-    // Bodies that touch in an edge or a corner may come apart or join by less than the tolerance: that is one in hundreds.
+    // Bodies that touch in an edge or a corner may come apart or join by less than the tolerance: that is one in
+    // hundreds.
     std::size_t other_shells = 0, unsettled = 0, cases = 0;
     for (int run = 0; run < 100 * tests::effort() && !HasFailure(); ++run) {
         std::mt19937 random(static_cast<unsigned>(run));

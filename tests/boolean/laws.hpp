@@ -12,8 +12,8 @@
 #include "solids.hpp"
 
 // Any bytes as two closed operands on a small grid, where everything coincides all the time, and what set operations on
-// them must obey. Results must be closed, oriented, manifolds, the same however the operands are ordered, and their volumes
-// must agree: |A ∪ B| + |A ∩ B| = |A| + |B|, |A ⊕ B| = |A ∪ B| - |A ∩ B|, |A \ B| = |A| - |A ∩ B|, where |X| is
+// them must obey. Results must be closed, oriented, manifolds, the same however the operands are ordered, and their
+// volumes must agree: |A ∪ B| + |A ∩ B| = |A| + |B|, |A ⊕ B| = |A ∪ B| - |A ∩ B|, |A \ B| = |A| - |A ∩ B|, where |X| is
 // the volume of where X winds at least once. For the fuzzer, and for inputs that it has found.
 
 namespace octavo::tests {

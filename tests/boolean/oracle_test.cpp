@@ -10,8 +10,8 @@
 #include "effort.hpp"
 #include "solids.hpp"
 
-// Random expressions over random bodies on a grid, which touch and coincide, against volumes found without the code under
-// test: by rational clipping of convex bodies, and by counting cells.
+// Random expressions over random bodies on a grid, which touch and coincide, against volumes found without the code
+// under test: by rational clipping of convex bodies, and by counting cells.
 
 namespace octavo::boolean {
 namespace {

@@ -26,8 +26,8 @@ exact::EdgePoint on_plane(const Soup& soup, std::size_t facet, Point p, Point q)
 
 constexpr std::int32_t most = exact::universe_side - 1;
 
-/// Facet 0 is z = 1, facet 1 the one through the x axis there that rises by one unit over the whole universe. Doubles are
-/// 2^-12 units apart here, unless the world's origin is nearer.
+/// Facet 0 is z = 1, facet 1 the one through the x axis there that rises by one unit over the whole universe. Doubles
+/// are 2^-12 units apart here, unless the world's origin is nearer.
 struct TwoPlanes {
     Soup soup;
     explicit TwoPlanes(std::int64_t far = std::int64_t{1} << 40) {

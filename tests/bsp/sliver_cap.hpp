@@ -8,9 +8,9 @@
 
 namespace octavo::tests {
 
-/// A prism whose upper face is a fan of `count` slivers from one end of an arc: each is many thousand times as long as it is
-/// wide, and a few units up or down tilt all of them differently. Coordinates are multiples of `unit`, up to
-/// 2^26 of them.
+/// A prism whose upper face is a fan of `count` slivers from one end of an arc: each is many thousand times as long as
+/// it is wide, and a few units up or down tilt all of them differently. Coordinates are multiples of `unit`, up to 2^26
+/// of them.
 inline mesh::Mesh sliver_cap(std::uint32_t count, double unit) {
     std::mt19937 random(count);
     const std::int32_t step = (1 << 25) / static_cast<std::int32_t>(count), height = 1 << 20;

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-// `.bso` files taken apart and put together again, as docs/formats/bso.md says and without any of the library's code, so
-// that lies can be told behind checksums that are right.
+// `.bso` files taken apart and put together again, as docs/formats/bso.md says and without any of the library's code,
+// so that lies can be told behind checksums that are right.
 
 namespace octavo::tests {
 

@@ -112,8 +112,8 @@ Integer scaled(double number) {
     return Integer(mantissa) << (200 + exponent - 53);
 }
 
-/// A star-shaped body about the origin, asked in exact integers: a point is inside when it is behind the facet whose cone
-/// from the origin holds it.
+/// A star-shaped body about the origin, asked in exact integers: a point is inside when it is behind the facet whose
+/// cone from the origin holds it.
 class Star {
   public:
     explicit Star(const mesh::Mesh& mesh) : mesh_(mesh), about_(mesh.vertices.size()) {

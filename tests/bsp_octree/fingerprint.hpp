@@ -21,10 +21,10 @@
 
 // Whether two engines made the same solid, to the last bit, however each of them cut its boundary to pieces.
 //
-// Moments of a solid are rational functions of its exact vertices; here they are computed modulo a prime near 2^61, so that
-// nothing is rounded and no number grows. They are the integrals of (f · p)^k, k = 0 … 4, where f has random coordinates: two
-// different solids agree in them by chance only, and the volume, k = 0, is one of them. Vertices are taken as the engines
-// hold them, before any rounding to doubles.
+// Moments of a solid are rational functions of its exact vertices; here they are computed modulo a prime near 2^61, so
+// that nothing is rounded and no number grows. They are the integrals of (f · p)^k, k = 0 … 4, where f has random
+// coordinates: two different solids agree in them by chance only, and the volume, k = 0, is one of them. Vertices are
+// taken as the engines hold them, before any rounding to doubles.
 
 namespace octavo::tests {
 

@@ -13,9 +13,9 @@
 #include "bsp_octree/solid_cases.hpp"
 #include "effort.hpp"
 
-// Every closed model that is there goes into a BSP-octree and comes back: the same volume as an integer, nothing that is
-// not in both, all vertices those of the input and all facets in its planes, and a .bso file no larger than 1.5 times its
-// binary PLY.
+// Every closed model that is there goes into a BSP-octree and comes back: the same volume as an integer, nothing that
+// is not in both, all vertices those of the input and all facets in its planes, and a .bso file no larger than 1.5
+// times its binary PLY.
 
 namespace octavo::bsp_octree {
 namespace {

@@ -18,9 +18,9 @@
 #include "effort.hpp"
 #include "models.hpp"
 
-// Set operations on all operands for Booleans that are there: BSP-octrees and boolean/ must give the same solid, exactly, by
-// fingerprints of vertices that nobody rounds. Both get the vertices that are on the joint lattice, and nothing else is done
-// to operands first, also to those that cross, cover or nest themselves.
+// Set operations on all operands for Booleans that are there: BSP-octrees and boolean/ must give the same solid,
+// exactly, by fingerprints of vertices that nobody rounds. Both get the vertices that are on the joint lattice, and
+// nothing else is done to operands first, also to those that cross, cover or nest themselves.
 
 namespace octavo::bsp_octree {
 namespace {

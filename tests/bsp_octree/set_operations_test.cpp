@@ -204,8 +204,8 @@ TEST(SetOperations, StopWhenAskedTo) {
     expect_same(*a.subtract(b), *a.subtract(b, nullptr, {}), "what was given up leaves nothing behind");
 }
 
-/// A cube in octant 0 of the universe. The rest has `label`, and octant 7 is a leaf for it: its tree's plane passes by the
-/// cell. No operation makes such trees; a file may hold them.
+/// A cube in octant 0 of the universe. The rest has `label`, and octant 7 is a leaf for it: its tree's plane passes by
+/// the cell. No operation makes such trees; a file may hold them.
 BspOctree with_needless_tree(bsp::Label label) {
     const BspOctree base = octree_of(cube(-50, -50, -50, 2));
     const std::shared_ptr<Store> store = base.shared_store();

@@ -10,8 +10,9 @@
 #include "bsp_octree/solid_cases.hpp"
 #include "effort.hpp"
 
-// Solids that are hard on octrees or on BSP trees: thousands of faces in one plane, about one point, about one axis, and up
-// to the last point of the lattice. Each comes back from its tree, and set operations with it are those of boolean/.
+// Solids that are hard on octrees or on BSP trees: thousands of faces in one plane, about one point, about one axis,
+// and up to the last point of the lattice. Each comes back from its tree, and set operations with it are those of
+// boolean/.
 
 namespace octavo::bsp_octree {
 namespace {
@@ -55,7 +56,8 @@ mesh::Mesh turned(const mesh::Mesh& mesh, double degrees, Vec3 by = {}) {
     return mesh::transform(mesh, compose(mesh::translation(by), mesh::rotation({1, 2, 3}, degrees)));
 }
 
-/// Ground of n² squares over a floor: steps of a few heights, so that most facets are coplanar with thousands of others.
+/// Ground of n² squares over a floor: steps of a few heights, so that most facets are coplanar with thousands of
+/// others.
 mesh::Mesh terraces(int n) {
     mesh::Mesh mesh;
     std::map<std::array<int, 3>, std::uint32_t> numbers;

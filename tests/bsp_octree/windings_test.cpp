@@ -95,8 +95,9 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Heaps,
                          testing::Combine(testing::Values(2, 4), testing::Values(1U, 8U, 1000U)));
 
 TEST(Windings, KeepSlitsThatAreThinnerThanALatticeUnit) {
-    // Wedges that end in one far point cross a slab whose upper side is tilted by one unit: what is left of them above it is
-    // thinner than a unit all along. A surface rounded to the lattice folds flat there, and loses the area of both sides.
+    // Wedges that end in one far point cross a slab whose upper side is tilted by one unit: what is left of them above
+    // it is thinner than a unit all along. A surface rounded to the lattice folds flat there, and loses the area of
+    // both sides.
     constexpr double length = 4096;
     std::vector<mesh::Mesh> parts;
     mesh::Mesh slab = tests::box({0, 0, 0}, {64, 64, 8}).mesh;

@@ -63,8 +63,8 @@ TEST_F(BspVerbs, MillTakesTreesAsTheyAre) {
 }
 
 TEST_F(BspVerbs, ContainsAsksTheTreeAndNotAMeshOfIt) {
-    // An octahedron loses a slanted corner. Cuts end where a mesh has to round; the plane 35 x + 21 y + 15 z = 105 of a face
-    // stays what it is, and so do points in it.
+    // An octahedron loses a slanted corner. Cuts end where a mesh has to round; the plane 35 x + 21 y + 15 z = 105 of a
+    // face stays what it is, and so do points in it.
     write("work.off",
           "OFF\n6 8 0\n3 0 0\n-3 0 0\n0 5 0\n0 -5 0\n0 0 7\n0 0 -7\n3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 "
           "0 5\n"

@@ -10,8 +10,8 @@
 namespace octavo::tests {
 namespace {
 
-/// A box away from the world's origin, whose sides are no multiples of anything; `unused` are lines "v x y z" that go before
-/// the eight vertices, and so move all indices.
+/// A box away from the world's origin, whose sides are no multiples of anything; `unused` are lines "v x y z" that go
+/// before the eight vertices, and so move all indices.
 std::string box_as_obj(const std::string& unused, std::size_t count) {
     std::string text = unused;
     for (int corner = 0; corner < 8; ++corner)

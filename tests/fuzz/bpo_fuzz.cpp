@@ -11,8 +11,8 @@
 
 #include "../bp_octree/sign_bpo.hpp"
 
-// Any bytes are refused with a sentence or are a tree that can be walked, drawn, certified or refuted, and written again.
-// They are tried as they are and with all checksums put right, which random changes never do.
+// Any bytes are refused with a sentence or are a tree that can be walked, drawn, certified or refuted, and written
+// again. They are tried as they are and with all checksums put right, which random changes never do.
 
 namespace {
 

@@ -11,9 +11,9 @@
 #include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/mesh/measure.hpp>
 
-// Any bytes are a chain of set operations with tetrahedra and boxes on a small grid, where everything touches and coincides
-// all the time. Where points lie that are in no plane of any of them, whole numbers say; the octree must say the same after
-// every step. In the end it gives a mesh of its volume, and a file that gives itself again.
+// Any bytes are a chain of set operations with tetrahedra and boxes on a small grid, where everything touches and
+// coincides all the time. Where points lie that are in no plane of any of them, whole numbers say; the octree must say
+// the same after every step. In the end it gives a mesh of its volume, and a file that gives itself again.
 
 namespace {
 

@@ -14,8 +14,8 @@ namespace {
 using mesh::Mesh;
 using mesh::VertexIndex;
 
-/// Half of the box [0, 8]² × [0, 4], cut off along the diagonal, which halves cells of side 1 exactly. The flat face there has
-/// n · n random vertices.
+/// Half of the box [0, 8]² × [0, 4], cut off along the diagonal, which halves cells of side 1 exactly. The flat face
+/// there has n · n random vertices.
 Mesh wedge(std::uint32_t seed, std::size_t n) {
     std::mt19937 random(seed);
     const auto dyadic = [&](double low, double high) {

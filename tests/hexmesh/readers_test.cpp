@@ -141,8 +141,8 @@ TEST(Meshio, ReadsGmshFiles) {
     EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
 }
 
-// True degrees of freedom, and whether a linear function is reproduced across hanging vertices: its values at those that
-// do not hang, prolonged by MFEM's own constraints, must be its values everywhere.
+// True degrees of freedom, and whether a linear function is reproduced across hanging vertices: its values at those
+// that do not hang, prolonged by MFEM's own constraints, must be its values everywhere.
 constexpr const char* mfem_script = R"(
 import sys, mfem.ser as mfem, numpy
 mesh = mfem.Mesh(sys.argv[1])

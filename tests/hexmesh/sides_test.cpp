@@ -88,7 +88,8 @@ TEST(BuildKeepingHalf, GivesEachCellToWhoeverFillsHalfOfIt) {
     const mesh::Materials materials = mesh::materials_of(built->mesh);
     for (mesh::CellIndex cell = 0; cell < built->mesh.cell_count(); ++cell)
         ++cells[materials.solids[materials.of(built->mesh, cell)]];
-    // Solid 0 fills three fifths of the cells from 1 to 1.5; of the top layer solid 0 fills a fifth, solid 1 four fifths.
+    // Solid 0 fills three fifths of the cells from 1 to 1.5; of the top layer solid 0 fills a fifth, solid 1 four
+    // fifths.
     EXPECT_EQ(cells,
               (std::map<std::vector<mesh::SolidIndex>, std::size_t>{{{0}, 3 * 4 * 4}, {{1}, 3 * 4 * 5}}));
     std::size_t entries = 0;

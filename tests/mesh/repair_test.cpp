@@ -205,8 +205,8 @@ TEST(Repair, SeparatesSolidsThatTouchAtEdgesAndVertices) {
     EXPECT_EQ(vertex.report.count(RepairKind::separated_vertices), 1u);
     EXPECT_EQ(measure(vertex.mesh).components, 2u);
 
-    // Two cavities that touch along an edge: pairs that bound the same solid would join them at both ends of the edge, so
-    // those that bound the same empty space are taken.
+    // Two cavities that touch along an edge: pairs that bound the same solid would join them at both ends of the edge,
+    // so those that bound the same empty space are taken.
     std::vector<Mesh> around;
     for (const auto& [x, y] : {std::pair(0, 0), std::pair(1, 1)})
         around.push_back(flipped(box({x + 0.0, y + 0.0, 0}, {x + 1.0, y + 1.0, 1})));
