@@ -57,12 +57,13 @@ struct Measured {
 
 /// Distances to the triangles of a leaf.
 ///
-/// The error, with e = 2^-24: w = q − a errs by 3 e (|w| + 1) and so do points of edges, at parameters that err by
-/// 8 e |w| / |edge|: 12 e (|w| + |u| + |v| + 1) in all. The face: the computed normal u × v errs in direction by 6 e k,
-/// k = |u| |v| / |u × v|; the height over the plane by (6 k + 4) e |w|; the tests whether the foot lies in the triangle
-/// by 12 e k |w| (|u| + |v|) / |edge| <= 24 e k² |w| across the edge, since |v| / |c − b| <= k. A foot taken for
-/// inside or outside wrongly is no farther from the border than that. So 48 e k² (|w| + |u| + |v| + 1) covers all,
-/// k >= 1; 2^-18 k² is more, also where k, of which nothing beyond 2^15 is believed, errs by a hundredth.
+/// The error, with e = 2^-24 and k = |u| |v| / |u × v| >= 1: w = q − a errs by 3 e (|w| + 1) and so do points of edges;
+/// an error of their parameters changes the distance by its square only. The face: the computed normal errs in
+/// direction by 6 e k, the height over the plane by (6 k + 4) e |w|. A foot that is taken for inside wrongly still has
+/// a point of the triangle near it: the computed β and γ, which then are >= 0 with a sum <= 1, name one, no farther
+/// than 2 k (6 k + 13) e |w| + 9 e k (|u| + |v|) from the foot; that holds at sharp corners too, where the foot may be
+/// far from the border. One that is taken for outside wrongly is as near to the border. So 63 e k² (|w| + |u| + |v| +
+/// 1) covers all; 68 e k² is used, for k, of which nothing beyond 2^15 is believed, errs by a hundredth.
 Measured measure(const TreeLeaf& leaf, const SplitPoint& q) {
     const Float8x3 u{floats(leaf.u[0]), floats(leaf.u[1]), floats(leaf.u[2])},
         v{floats(leaf.v[0]), floats(leaf.v[1]), floats(leaf.v[2])};

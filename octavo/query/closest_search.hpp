@@ -18,7 +18,8 @@ struct NearestTriangle {
     NearestFeature feature;
 };
 
-/// `at_most` is no less than the distance, in lattice units: the nearer, the shorter the walk. The tree is not empty.
+/// `at_most` is no less than the distance, in lattice units, but for 2^-26 of them, which is less than what boxes and
+/// leaves are widened by: the nearer, the shorter the walk. The tree is not empty.
 NearestTriangle search(const ClosestTree& tree, const FixedPoint& q,
                        float at_most = std::numeric_limits<float>::infinity());
 
