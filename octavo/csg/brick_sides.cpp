@@ -212,7 +212,8 @@ bool holds(const Leaf& leaf, const octree::Cell& brick) {
     bool result = true;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        result &= (leaf.low[a] < brick.low[axis]) & (leaf.high[a] > brick.low[axis] + brick.side());
+        result &= leaf.low[a] < brick.low[axis];
+        result &= leaf.high[a] > brick.low[axis] + brick.side();
     }
     return result;
 }
