@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -140,6 +141,13 @@ bool are_apart(const Corners& a, const Corners& b) {
     });
 }
 
+/// Numbers are whole above the origin and halves below it, where bodies reach too: all are counted in halves. Rounding
+/// them to whole ones would make facets meet that do not.
+std::int64_t halves(double number) {
+    EXPECT_EQ(std::rint(2 * number), 2 * number);
+    return std::llrint(2 * number);
+}
+
 /// The pairs of facets without a common place of corners that meet, those aside that are flat.
 std::size_t pairs_that_meet(const mesh::Mesh& mesh, Vec3 origin) {
     std::vector<Corners> facets;
@@ -147,7 +155,7 @@ std::size_t pairs_that_meet(const mesh::Mesh& mesh, Vec3 origin) {
         Corners corners;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 at = mesh.vertices[t[k]] - origin;
-            corners[k] = {std::llrint(at.x), std::llrint(at.y), std::llrint(at.z)};
+            corners[k] = {halves(at.x), halves(at.y), halves(at.z)};
         }
         if (product(difference(corners[1], corners[0]), difference(corners[2], corners[0])) != Integers{})
             facets.push_back(corners);
