@@ -20,9 +20,9 @@ Result<ClosestQuery> ClosestQuery::build(const mesh::LatticeMesh& mesh, const Cl
         if (!inside) return inside.error();
         query.inside_ = std::make_shared<const InsideQuery>(std::move(*inside));
     }
-    if (context.cancelled()) return Context::cancelled_error();
     query.lattice_ = mesh.lattice;
-    query.tree_ = ClosestTree::build(mesh);
+    query.tree_ = ClosestTree::build(mesh, context);
+    if (context.cancelled()) return Context::cancelled_error();
     return query;
 }
 

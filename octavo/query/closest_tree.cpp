@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include <octavo/base/parallel.hpp>
 #include <octavo/query/closest_tree.hpp>
 #include <octavo/query/turned_box.hpp>
 
@@ -37,27 +38,70 @@ struct Range {
     std::uint32_t count() const { return end - begin; }
 };
 
+/// A part of the tree in arrays of its own, or a node with such parts for children.
+struct Piece {
+    ClosestTree tree;  ///< its root first; a lone leaf has no node
+    TreeNode node{};
+    std::vector<Piece> children;  ///< of `node`; empty where `tree` is all of the piece
+
+    std::size_t node_count() const {
+        std::size_t count = children.empty() ? tree.nodes.size() : 1;
+        for (const Piece& child : children) count += child.node_count();
+        return count;
+    }
+    std::size_t leaf_count() const {
+        std::size_t count = tree.leaves.size();
+        for (const Piece& child : children) count += child.leaf_count();
+        return count;
+    }
+
+    /// Moves the piece to the end of `whole`; returns the number of its root there.
+    std::uint32_t join(ClosestTree& whole) {
+        const auto first_node = static_cast<std::uint32_t>(whole.nodes.size());
+        const auto first_leaf = static_cast<std::uint32_t>(whole.leaves.size());
+        if (!children.empty()) {
+            whole.nodes.push_back(node);
+            for (std::size_t i = 0; i < children.size(); ++i) {
+                const std::uint32_t child = children[i].join(whole);
+                whole.nodes[first_node].child[i] = child;
+            }
+            return first_node;
+        }
+        for (TreeNode& moved : tree.nodes) {
+            for (std::uint32_t& child : moved.child)
+                if (child != 0) child += (child & TreeNode::leaf_bit) != 0 ? first_leaf : first_node;
+            whole.nodes.push_back(moved);
+        }
+        whole.leaves.insert(whole.leaves.end(), tree.leaves.begin(), tree.leaves.end());
+        const bool lone_leaf = tree.nodes.empty();
+        tree = {};  // so that the memory for two trees is never needed whole
+        return lone_leaf ? first_leaf | TreeNode::leaf_bit : first_node;
+    }
+};
+
 class TreeBuilder {
   public:
-    explicit TreeBuilder(const mesh::LatticeMesh& mesh) : mesh_(mesh), boxes_(mesh.triangles.size()) {
-        for (std::size_t i = 0; i < boxes_.size(); ++i)
-            for (const mesh::VertexIndex vertex : mesh.triangles[i]) {
-                const exact::Point p = mesh.points[vertex];
-                boxes_[i].add({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
-            }
-        order_.resize(boxes_.size());
-        std::iota(order_.begin(), order_.end(), 0U);
+    TreeBuilder(const mesh::LatticeMesh& mesh, const Context& context)
+        : mesh_(mesh), context_(context), boxes_(mesh.triangles.size()), order_(boxes_.size()) {
+        // Tasks below stay within the threads of the caller's loop.
+        if (context.threads != 1) context_.threads = 0;
     }
 
     ClosestTree run() {
         if (boxes_.empty()) return {};
-        tree_.leaves.reserve(boxes_.size() / 6 + 1);
+        parallel_chunks(context_, boxes_.size(), piece_triangles, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) boxes_[i] = box_of(mesh_.triangles[i]);
+        });
+        std::iota(order_.begin(), order_.end(), 0U);
         Range all{0, static_cast<std::uint32_t>(boxes_.size()), {}, 0};
         for (const Box& box : boxes_) all.box.add(box);
-        add_node(all);
-        tree_.nodes.shrink_to_fit();
-        tree_.leaves.shrink_to_fit();
-        return std::move(tree_);
+        Piece piece = build_node(all);
+        ClosestTree tree;
+        if (context_.cancelled()) return tree;
+        tree.nodes.reserve(piece.node_count());
+        tree.leaves.reserve(piece.leaf_count());
+        piece.join(tree);
+        return tree;
     }
 
   private:
@@ -65,11 +109,58 @@ class TreeBuilder {
     static constexpr int bins = 16;
     // Below this depth of binary splits halves are taken instead, so that no input makes the tree deep.
     static constexpr int area_depth = 48;
+    // A range of so many triangles is built by one task, in about a hundredth of a second.
+    static constexpr std::uint32_t piece_triangles = 1U << 14;
 
-    std::uint32_t add_node(const Range& range) {
-        const auto index = static_cast<std::uint32_t>(tree_.nodes.size());
-        tree_.nodes.emplace_back();
-        std::array<Range, tree_width> parts{range};
+    Box box_of(const mesh::Triangle& triangle) const {
+        Box box;
+        for (const mesh::VertexIndex vertex : triangle) {
+            const exact::Point p = mesh_.points[vertex];
+            box.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
+        }
+        return box;
+    }
+
+    /// The tree of a range that is a node.
+    Piece build_node(const Range& range) {
+        Piece piece;
+        if (range.count() <= piece_triangles) {
+            if (!context_.cancelled()) add_node(range, piece.tree);
+            return piece;
+        }
+        std::array<Range, tree_width> parts;
+        const std::size_t count = divide(range, parts);
+        piece.node = frame_of(range.box);
+        piece.children.resize(count);
+        std::array<TurnedBox, tree_width> boxes;
+        parallel_chunks(context_, count, 1, [&](std::size_t i, std::size_t) {
+            boxes[i] = box_in(piece.node, parts[i]);
+            if (parts[i].count() <= tree_width)
+                add_leaf(parts[i], piece.children[i].tree);
+            else
+                piece.children[i] = build_node(parts[i]);
+        });
+        for (std::size_t i = 0; i < count; ++i) set_child(piece.node, i, boxes[i], 0);
+        return piece;
+    }
+
+    std::uint32_t add_node(const Range& range, ClosestTree& tree) {
+        const auto index = static_cast<std::uint32_t>(tree.nodes.size());
+        std::array<Range, tree_width> parts;
+        const std::size_t count = divide(range, parts);
+        tree.nodes.push_back(frame_of(range.box));
+        for (std::size_t i = 0; i < count; ++i) {
+            const TurnedBox box = box_in(tree.nodes[index], parts[i]);
+            const std::uint32_t child =
+                parts[i].count() <= tree_width ? add_leaf(parts[i], tree) : add_node(parts[i], tree);
+            set_child(tree.nodes[index], i, box, child);
+        }
+        return index;
+    }
+
+    /// The parts of the range that its node holds; returns how many.
+    std::size_t divide(const Range& range, std::array<Range, tree_width>& parts) {
+        parts[0] = range;
         std::size_t count = 1;
         while (count < tree_width) {
             std::size_t largest = count;
@@ -83,17 +174,11 @@ class TreeBuilder {
             parts[largest] = first;
             parts[count++] = second;
         }
-        tree_.nodes[index] = node_round(range.box, std::span(parts).first(count));
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t child =
-                parts[i].count() <= tree_width ? add_leaf(parts[i]) : add_node(parts[i]);
-            tree_.nodes[index].child[i] = child;
-        }
-        return index;
+        return count;
     }
 
-    /// A node whose children have the boxes of these parts.
-    TreeNode node_round(const Box& whole, std::span<const Range> parts) const {
+    /// A node without children, in whose frame boxes within `whole` are rounded.
+    static TreeNode frame_of(const Box& whole) {
         TreeNode node{};
         std::int32_t half_side = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,16 +186,21 @@ class TreeBuilder {
             half_side = std::max(half_side, whole.high[axis] - node.origin[axis]);
         }
         node.step = std::nextafter(static_cast<float>((half_side + 1) / TurnedBox::reach), 1e30F);
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            const TurnedBox box = TurnedBox::round(
-                mesh_, std::span(order_).subspan(parts[i].begin, parts[i].count()), node.origin, node.step);
-            for (std::size_t k = 0; k < 3; ++k) {
-                for (std::size_t axis = 0; axis < 3; ++axis) node.axes[k][axis][i] = box.axes[k][axis];
-                node.low[k][i] = box.low[k];
-                node.high[k][i] = box.high[k];
-            }
-        }
         return node;
+    }
+
+    TurnedBox box_in(const TreeNode& frame, const Range& part) const {
+        return TurnedBox::round(mesh_, std::span(order_).subspan(part.begin, part.count()), frame.origin,
+                                frame.step);
+    }
+
+    static void set_child(TreeNode& node, std::size_t i, const TurnedBox& box, std::uint32_t child) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t axis = 0; axis < 3; ++axis) node.axes[k][axis][i] = box.axes[k][axis];
+            node.low[k][i] = box.low[k];
+            node.high[k][i] = box.high[k];
+        }
+        node.child[i] = child;
     }
 
     struct Bin {
@@ -183,7 +273,7 @@ class TreeBuilder {
         return static_cast<int>((std::int64_t{box.middle(axis)} - centres.low[axis]) * bins / span);
     }
 
-    std::uint32_t add_leaf(const Range& range) {
+    std::uint32_t add_leaf(const Range& range, ClosestTree& tree) {
         TreeLeaf leaf{};
         std::sort(order_.begin() + range.begin, order_.begin() + range.end);
         for (std::size_t i = 0; i < tree_width; ++i) {
@@ -198,18 +288,23 @@ class TreeBuilder {
                 leaf.v[k][i] = mesh_.points[t[2]][axis] - a;
             }
         }
-        tree_.leaves.push_back(leaf);
-        return static_cast<std::uint32_t>(tree_.leaves.size() - 1) | TreeNode::leaf_bit;
+        tree.leaves.push_back(leaf);
+        return static_cast<std::uint32_t>(tree.leaves.size() - 1) | TreeNode::leaf_bit;
     }
 
     const mesh::LatticeMesh& mesh_;
+    Context context_;
     std::vector<Box> boxes_;
     std::vector<std::uint32_t> order_;
-    ClosestTree tree_;
 };
 
 }  // namespace
 
-ClosestTree ClosestTree::build(const mesh::LatticeMesh& mesh) { return TreeBuilder(mesh).run(); }
+ClosestTree ClosestTree::build(const mesh::LatticeMesh& mesh, const Context& context) {
+    ClosestTree tree;
+    if (context.threads == 1) return TreeBuilder(mesh, context).run();
+    within_threads(context, [&] { tree = TreeBuilder(mesh, context).run(); });
+    return tree;
+}
 
 }  // namespace octavo::query

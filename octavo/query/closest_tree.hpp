@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <octavo/base/context.hpp>
 #include <octavo/mesh/mesh.hpp>
 #include <octavo/query/huge_page_allocator.hpp>
 #include <octavo/query/lanes.hpp>
@@ -24,8 +25,10 @@
 //                    └──────┘          ╲╱
 //
 // Built top down by binned surface area (I. Wald, On fast construction of SAH-based bounding volume hierarchies,
-// 2007), counting full leaves of eight; a node takes eight parts by splitting its largest part again and again.
-// Cost: 288 bytes a node, 320 a leaf: 55 bytes a triangle; O(n log n).
+// 2007), counting full leaves of eight; a node takes eight parts by splitting its largest part again and again. Parts
+// are built side by side, each in arrays of its own, which are then joined in the order of a depth-first walk: the tree
+// is the same for any number of threads.
+// Cost: 288 bytes a node, 320 a leaf: 55 bytes a triangle, and once more while joining; O(n log n).
 
 namespace octavo::query {
 
@@ -54,7 +57,8 @@ struct ClosestTree {
     Array<TreeNode> nodes;  ///< the root first; empty only for an empty mesh
     Array<TreeLeaf> leaves;
 
-    static ClosestTree build(const mesh::LatticeMesh& mesh);
+    /// Cancelled, the tree is not complete.
+    static ClosestTree build(const mesh::LatticeMesh& mesh, const Context& context = {});
     std::size_t memory_bytes() const {
         return nodes.capacity() * sizeof(TreeNode) + leaves.capacity() * sizeof(TreeLeaf);
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <type_traits>
 
 #include <octavo/base/parallel.hpp>
 #include <octavo/octree/morton.hpp>
 #include <octavo/query/inside.hpp>
+#include <octavo/query/lattice_coordinate.hpp>
 #include <octavo/query/leaf_filter.hpp>
 #include <octavo/query/leaf_test.hpp>
 
@@ -14,17 +14,6 @@ namespace octavo::query {
 namespace {
 
 inline void prefetch(const void* address) { __builtin_prefetch(address); }
-
-/// Rounds down what is below 2^53. Where floor is no instruction, calling it costs more than the rest of finding a
-/// place.
-inline double floor_of(double x) {
-#ifdef __SSE4_1__
-    return std::floor(x);
-#else
-    const auto towards_zero = static_cast<double>(static_cast<std::int64_t>(x));
-    return towards_zero > x ? towards_zero - 1 : towards_zero;
-#endif
-}
 
 constexpr bool is_plain(CellIndex::Kind kind) { return kind < CellIndex::Kind::gray; }
 
@@ -41,15 +30,12 @@ constexpr Side side_of(CellIndex::Kind plain) {
 /// False for points outside the universe, which are outside the solid; NaN and infinity among them.
 inline bool InsideQuery::place(Vec3 point, Located& located) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double world = point[static_cast<int>(axis)];
-        // Exact, but for underflow to zero, whose sign must not be lost, and overflow, which is outside anyway.
-        const double scaled = world * inverse_unit_;
-        if (!(std::fabs(scaled) <= 0x1p53)) return false;
-        const double floor = scaled == 0 && world < 0 ? -1.0 : floor_of(scaled);
-        const std::int64_t whole = static_cast<std::int64_t>(floor) - lattice_.origin()[axis];
+        LatticeCoordinate coordinate;
+        if (!coordinate.split(point[static_cast<int>(axis)], inverse_unit_)) return false;
+        const std::int64_t whole = coordinate.whole - lattice_.origin()[axis];
         if (whole < 0 || whole >= exact::universe_side) return false;
         located.whole[axis] = static_cast<std::int32_t>(whole);
-        located.part[axis] = scaled - floor;
+        located.part[axis] = coordinate.part;
     }
     const auto& w = located.whole;
     located.code = octree::CellKey::at({w[0], w[1], w[2]}, octree::max_level).code();

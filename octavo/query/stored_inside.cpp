@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <numeric>
 
 #include <octavo/bp_octree/triangle_cell.hpp>
+#include <octavo/query/lattice_coordinate.hpp>
 #include <octavo/query/leaf_test.hpp>
 #include <octavo/query/stored_inside.hpp>
 
@@ -49,12 +49,10 @@ Result<Side> StoredInside::operator()(Vec3 point) {
     std::array<std::int64_t, 3> whole{};
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
-        // As in InsideQuery: exact, but for underflow to zero, whose sign must not be lost.
-        const double scaled = point[axis] * inverse_half_;
-        const double floor = scaled == 0 && point[axis] < 0 ? -1.0 : std::floor(scaled);
-        if (!(std::fabs(floor) <= 0x1p53)) return Side::outside;
-        whole[i] = static_cast<std::int64_t>(floor) - half_.origin()[i];
-        place.part[i] = scaled - floor;
+        LatticeCoordinate coordinate;
+        if (!coordinate.split(point[axis], inverse_half_)) return Side::outside;
+        whole[i] = coordinate.whole - half_.origin()[i];
+        place.part[i] = coordinate.part;
     }
     const auto leaf = reader_.leaf_at(whole);
     if (!leaf) return leaf.error();
