@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <octavo/base/context.hpp>
 #include <octavo/boolean/point_table.hpp>
 #include <octavo/bsp/fragment.hpp>
 #include <octavo/bsp/plane_table.hpp>
@@ -31,8 +32,9 @@ struct BoundedSegment {
 };
 
 /// The borders, sorted by facing. `points` names the ends. False when they do not close: the keys of this attempt
-/// failed (line_key.hpp), or the fragments are no boundary.
-bool sum_borders(std::vector<BoundedSegment> edges, const bsp::FragmentPool& planes,
-                 const boolean::PointTable& points, int attempt, std::vector<Segment>& borders);
+/// failed (line_key.hpp), or the fragments are no boundary. Cancelled, they are anything.
+bool sum_borders(std::vector<BoundedSegment> edges, const bsp::PlaneTable& planes,
+                 const boolean::PointTable& points, int attempt, std::vector<Segment>& borders,
+                 const Context& context);
 
 }  // namespace octavo::bsp_octree

@@ -7,6 +7,7 @@
 #include <octavo/bsp_octree/borders.hpp>
 #include <octavo/bsp_octree/faces.hpp>
 #include <octavo/bsp_octree/fill.hpp>
+#include <octavo/bsp_octree/fragment_edges.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/mesh/weld.hpp>
 
@@ -37,25 +38,6 @@ Soup soup_of(const BspOctree& octree) {
     return soup;
 }
 
-/// The edges of all fragments, their ends named by value.
-std::vector<BoundedSegment> edges_of(const BspOctree& octree, PointTable& points, MeshReport& report,
-                                     const Context& context) {
-    std::vector<BoundedSegment> edges;
-    std::vector<PointId> ids;
-    for_each_boundary(octree, context, [&](const bsp::FragmentPool& pool, const Fragments& fragments) {
-        for (const bsp::Fragment& fragment : fragments) {
-            const std::span<const bsp::Corner> ring = pool.corners(fragment);
-            ids.clear();
-            for (const bsp::Corner& corner : ring) ids.push_back(points.add(pool.constructed(corner.vertex)));
-            for (std::size_t i = 0; i < ring.size(); ++i)
-                edges.push_back(
-                    {{fragment.facing, ids[i], ids[i + 1 == ring.size() ? 0 : i + 1]}, ring[i].edge});
-            ++report.fragments;
-        }
-    });
-    return edges;
-}
-
 bool is_unbounded(const BspOctree& octree) {
     return octree.classify(octree.lattice().to_world({0, 0, 0})) == bsp::Position::in;
 }
@@ -67,19 +49,20 @@ Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context) {
     ToMesh result;
     const Soup soup = soup_of(octree);
     PointTable points(soup);
-    const std::vector<BoundedSegment> edges =
-        edges_of(octree, points, result.report, part_of(context, "faces", 0, 0.4));
+    FragmentEdges found = fragment_edges(octree, points, part_of(context, "faces", 0, 0.4));
     if (context.cancelled()) return Context::cancelled_error();
+    result.report.fragments = found.fragments;
     context.report("borders", 0.4);
-    const bsp::FragmentPool planes(octree.store().planes);
+    const bsp::PlaneTable& planes = octree.store().planes;
     std::vector<Segment> borders;
-    if (!sum_borders(edges, planes, points, 0, borders) && !sum_borders(edges, planes, points, 1, borders))
-        return Error{ErrorCode::not_a_solid, "the faces of the trees do not close to a surface", {}};
-    result.report.segments = borders.size();
+    const bool closed = sum_borders(found.edges, planes, points, 0, borders, context) ||
+                        sum_borders(std::move(found.edges), planes, points, 1, borders, context);
     if (context.cancelled()) return Context::cancelled_error();
+    if (!closed) return Error{ErrorCode::not_a_solid, "the faces of the trees do not close to a surface", {}};
+    result.report.segments = borders.size();
 
     context.report("facets", 0.7);
-    const Surface surface = fill_borders(borders, octree.store().planes, points);
+    const Surface surface = fill_borders(borders, planes, points);
     context.report("mesh", 0.9);
     const boolean::RoundedPoints rounded(soup, points);
     boolean::Assembled assembled =

@@ -283,6 +283,23 @@ TEST(Build, TellsHowFarItIsAndStopsWhenAskedTo) {
     }
 }
 
+TEST(Build, GoesBackToTheSameMeshForAnyNumberOfThreads) {
+    const Result<Built> built = build(mesh::displaced_sphere(40));
+    ASSERT_TRUE(built);
+    Context context;
+    context.threads = 1;
+    const Result<ToMesh> serial = to_mesh(built->octree, context);
+    ASSERT_TRUE(serial);
+    for (const int threads : {0, 2, 3}) {
+        context.threads = threads;
+        const Result<ToMesh> back = to_mesh(built->octree, context);
+        ASSERT_TRUE(back);
+        EXPECT_EQ(back->mesh.vertices, serial->mesh.vertices) << threads;
+        EXPECT_EQ(back->mesh.triangles, serial->mesh.triangles) << threads;
+        EXPECT_EQ(back->report.fragments, serial->report.fragments) << threads;
+    }
+}
+
 TEST(Build, OfNothingIsEmpty) {
     const Result<Built> built = build(mesh::Mesh{});
     ASSERT_TRUE(built);
