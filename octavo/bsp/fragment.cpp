@@ -17,6 +17,8 @@ TriplePoint widened(const exact::EdgePoint& p) {
             TriplePoint::Weight(p.weight())};
 }
 
+exact::AxisPlane across(Bound wall) { return {wall.axis(), wall.twice()}; }
+
 std::uint64_t edge_key(VertexId a, VertexId b) {
     return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
 }
@@ -48,7 +50,7 @@ Fragment FragmentPool::section(PlaneId id, const octree::Cell& cell) {
     for (int i = 0; i < 4; ++i) {
         // Corner i lies on walls i − 1 and i; against the axis the ring runs the other way.
         const int edge = downwards ? (3 - i) : i, before = downwards ? (edge + 1) % 4 : (edge + 3) % 4;
-        const auto point = exact::intersect(plane_of(walls[before]), plane_of(walls[edge]), plane);
+        const auto point = exact::intersect(plane_of(walls[before]), plane, across(walls[edge]));
         corners_.push_back({push(*point), walls[edge]});
     }
     Fragment f{begin, 4, Facing::of(id, false), 0};
@@ -87,7 +89,7 @@ void FragmentPool::begin_cut(Bound bound, const Plane& plane) {
 FragmentPool::Place FragmentPool::place(const Fragment& f) {
     // Against a wall it is the comparison of one coordinate; that wants walls inside the universe.
     if (bound_.is_wall() && bound_.twice() > 0) {
-        const exact::AxisPlane wall{bound_.axis(), bound_.twice()};
+        const exact::AxisPlane wall = across(bound_);
         return place(f, [&](VertexId vertex) {
             return is_lattice(vertex) ? exact::side_of(wall, points_[vertex])
                                       : exact::side_of(wall, constructed(vertex));
@@ -162,7 +164,9 @@ VertexId FragmentPool::construct(PlaneId plane, Bound edge) {
         const exact::Point p = points_[from], q = points_[to];
         return push(widened(exact::intersect_edge(p, q, plane_.value_at(p), plane_.value_at(q))));
     }
-    const auto point = exact::intersect(planes_[plane], plane_of(edge), plane_);
+    const auto point = edge.is_wall()     ? exact::intersect(planes_[plane], plane_, across(edge))
+                       : bound_.is_wall() ? exact::intersect(planes_[plane], plane_of(edge), across(bound_))
+                                          : exact::intersect(planes_[plane], plane_of(edge), plane_);
     OCTAVO_CHECK(point.has_value(), "an edge that crosses a plane is parallel to it");
     return push(*point);
 }

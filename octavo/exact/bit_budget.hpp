@@ -47,6 +47,14 @@ inline constexpr int triple_weight = sum(3, normal + line_direction);  // 162
 inline constexpr int triple_numerator =
     sum(3, greater(offset + line_direction, line_moment + normal));  // 190
 
+// The point where two planes meet one across an axis at t / 2, |t| <= 2^27: e = n t + 2 d for either, w = 2 m,
+// x = t m along the axis, else n1 e2 - n2 e1.
+inline constexpr int axis_coordinate = coordinate + 2;                                     // 28: t
+inline constexpr int axis_offset = sum(2, greater(normal + axis_coordinate, offset + 1));  // 83
+inline constexpr int axis_weight = line_direction + 1;                                     // 108
+inline constexpr int axis_numerator =
+    greater(axis_coordinate + line_direction, sum(2, normal + axis_offset));  // 137
+
 /// n.x + d w for a homogeneous point: 164 for an edge point, 245 for a three-plane point.
 constexpr int side_of_point(int numerator, int weight) {
     return sum(4, greater(normal + numerator, offset + weight));

@@ -39,4 +39,23 @@ std::optional<TriplePoint> intersect(const Plane& first, const Plane& second, co
     return intersect(Line(first, second), third);
 }
 
+std::optional<TriplePoint> intersect(const Plane& first, const Plane& second, const AxisPlane& third) {
+    // In the plane, where the third coordinate is twice / 2: n1 u + n2 v = -e / 2 for either plane.
+    const int i = after(third.axis), j = before(third.axis);
+    static_assert(budget::axis_offset < 127);
+    const auto offset = [&](const Plane& plane) {
+        return wide(plane.normal(third.axis)) * third.twice + 2 * plane.d();
+    };
+    const int128 w = wide(first.normal(i)) * second.normal(j) - wide(first.normal(j)) * second.normal(i);
+    if (w == 0) return std::nullopt;
+    static_assert(budget::axis_numerator <= budget::triple_numerator &&
+                  budget::axis_weight <= budget::triple_weight);
+    const WideInt<2> e1(offset(first)), e2(offset(second));
+    std::array<Int192, 3> x;
+    x[third.axis] = multiply<3>(WideInt<2>(w), WideInt<1>(std::int64_t{third.twice}));
+    x[i] = multiply<3>(e2, WideInt<1>(first.normal(j))) - multiply<3>(e1, WideInt<1>(second.normal(j)));
+    x[j] = multiply<3>(e1, WideInt<1>(second.normal(i))) - multiply<3>(e2, WideInt<1>(first.normal(i)));
+    return TriplePoint(x[0], x[1], x[2], Int192(2 * w));
+}
+
 }  // namespace octavo::exact

@@ -52,4 +52,8 @@ std::optional<TriplePoint> intersect(const Line& line, const Plane& plane);
 /// planes with many others, keep the Line.
 std::optional<TriplePoint> intersect(const Plane& first, const Plane& second, const Plane& third);
 
+/// The same where one plane is across an axis, in two thirds of the time: two lines in that plane meet. Here `twice`
+/// may be -1 too.
+std::optional<TriplePoint> intersect(const Plane& first, const Plane& second, const AxisPlane& third);
+
 }  // namespace octavo::exact

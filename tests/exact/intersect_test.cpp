@@ -46,6 +46,27 @@ TEST(Intersect, ThreePlanesAgreeWithTheOracle) {
     EXPECT_GT(parallel, 0);
 }
 
+TEST(Intersect, TwoPlanesAndOneAcrossAnAxisAgreeWithTheOracle) {
+    Generator random(15);
+    int parallel = 0;
+    for (int i = 0; i < 300'000 * tests::effort(); ++i) {
+        const Point p = random.point();
+        AxisPlane across{i % 3, 2 * p[i % 3] - (random.coin() ? 1 : 0)};
+        if (i % 100 == 0) across.twice = i % 200 == 0 ? 1 << 27 : -1;
+        const Plane wall = Plane::from_coefficients(across.axis == 0 ? 2 : 0, across.axis == 1 ? 2 : 0,
+                                                    across.axis == 2 ? 2 : 0, -int128{across.twice});
+        const Plane first = random.plane(), second = random.plane();
+        const auto point = intersect(first, second, across);
+        const oracle::Fraction expected = oracle::meet(first, second, wall);
+        ASSERT_EQ(point.has_value(), expected.w != 0);
+        if (point) {
+            ASSERT_TRUE(oracle::same(*point, expected));
+        }
+        parallel += !point;
+    }
+    EXPECT_GT(parallel, 0);
+}
+
 TEST(Intersect, PlanesThroughOneLineOrParallelHaveNoPoint) {
     Generator random(13);
     for (int i = 0; i < 100'000 * tests::effort(); ++i) {
@@ -103,6 +124,15 @@ TEST(Intersect, TheWidestPlanesStayInTheBudget) {
                 if (!point) continue;
                 ++points;
                 ASSERT_TRUE(oracle::same(*point, oracle::meet(plane(i), plane(j), plane(k))));
+            }
+    for (int i = 0; i < 16; ++i)
+        for (int j = 0; j < 16; ++j)
+            for (int axis = 0; axis < 3; ++axis) {
+                const AxisPlane across{axis, 1 << 27};
+                const auto point = intersect(plane(i), plane(j), across);
+                if (!point) continue;
+                ++points;
+                ASSERT_TRUE(oracle::same(*point, oracle::meet(plane(i), plane(j), across.plane())));
             }
     EXPECT_GT(points, 0);
 }
