@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <vector>
+
 #include <octavo/base/any_scale.hpp>
 #include <octavo/base/expansion.hpp>
 
@@ -23,6 +26,34 @@ int likely_sign(const std::array<std::array<double, 4>, 3>& m) {
     return sum > 0 ? 1 : -1;
 }
 
+/// The product of three factors and a power of two.
+struct Product {
+    std::array<double, 3> factor{};  ///< magnitudes in [1/2, 1)
+    int exponent = 0;
+};
+
+/// Those of the six that are not zero.
+std::vector<Product> products_of_determinant(const std::array<std::array<double, 4>, 3>& m) {
+    std::vector<Product> products;
+    const auto add = [&](double sign, double x, double y, double z) {
+        Product product;
+        const std::array<double, 3> entries{sign * x, y, z};
+        for (std::size_t i = 0; i < 3; ++i) {
+            int exponent = 0;
+            product.factor[i] = std::frexp(entries[i], &exponent);
+            product.exponent += exponent;
+            if (entries[i] == 0) return;
+        }
+        products.push_back(product);
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        add(1, m[0][i], m[1][j], m[2][k]);
+        add(-1, m[0][i], m[1][k], m[2][j]);
+    }
+    return products;
+}
+
 }  // namespace
 
 Affine balanced(const Affine& map) {
@@ -39,14 +70,25 @@ Affine balanced(const Affine& map) {
 
 int determinant_sign(const Affine& map) {
     if (const int sign = likely_sign(map.m)) return sign;
-    const auto a = balanced(map).m;
-    Expansion<24> determinant;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        determinant.add_product(a[0][i], a[1][j], a[2][k]);
-        determinant.add_product(-a[0][i], a[1][k], a[2][j]);
+    std::vector<Product> products = products_of_determinant(map.m);
+    std::sort(products.begin(), products.end(),
+              [](const Product& a, const Product& b) { return a.exponent > b.exponent; });
+    // From the largest on. What is added is a multiple of 2^-159 of the product's own power of two, so once the next is
+    // so far below that six of them are less, the sum decides; if that is nothing, the next begins anew. So no power of
+    // two is below that of the first by more than doubles reach.
+    constexpr int far = 159 + 3;
+    static_assert(5 * far + 159 + 3 < 1022);
+    Expansion<24> sum;
+    int largest = 0;
+    for (std::size_t i = 0; i < products.size(); ++i) {
+        const auto& [factor, exponent] = products[i];
+        if (i == 0 || products[i - 1].exponent - exponent > far) {
+            if (sum.sign() != 0) break;
+            largest = exponent;
+        }
+        sum.add_product(std::ldexp(factor[0], exponent - largest), factor[1], factor[2]);
     }
-    return determinant.sign();
+    return sum.sign();
 }
 
 bool Affine::mirrors() const { return determinant_sign(*this) < 0; }

@@ -7,6 +7,8 @@
 
 // Directions and determinants at any scale: products of two or three lengths overflow from 1e102 on and vanish below
 // 1e-108. Multiplied by powers of two first they do neither, and are otherwise the same bit for bit.
+// What cancels in them is computed so that nothing is lost: rounded products leave nothing of the normal of two edges
+// that enclose an angle of 2^-53, and move a side with an angle of 2^-40 by thousands of lattice units.
 
 namespace octavo {
 
@@ -17,8 +19,19 @@ inline Vec3 scaled_near_one(Vec3 v) {
     return {std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)};
 }
 
-/// The direction of a × b, of any length.
-inline Vec3 cross_direction(Vec3 a, Vec3 b) { return cross(scaled_near_one(a), scaled_near_one(b)); }
+/// p q − r s to one and a half units in its last place, however much cancels (W. Kahan; the proof is C.-P. Jeannerod's,
+/// N. Louvet's and J.-M. Muller's, 2013). Products must be doubles.
+inline double difference_of_products(double p, double q, double r, double s) {
+    const double second = r * s;
+    return std::fma(p, q, -second) - std::fma(r, s, -second);
+}
+
+/// The direction of a × b, of any length; each component to two units in its last place.
+inline Vec3 cross_direction(Vec3 a, Vec3 b) {
+    a = scaled_near_one(a), b = scaled_near_one(b);
+    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+            difference_of_products(a.x, b.y, a.y, b.x)};
+}
 
 /// The linear part with rows, then columns, scaled near one: the sign of the determinant stays.
 Affine balanced(const Affine& map);

@@ -34,7 +34,9 @@ Matrix inverse(const Affine& map) {
     return result;
 }
 
-double largest_component(Vec3 v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+/// Rows of round bodies that are larger make a body thinner than 2^-199 lattice units, and products that are no
+/// doubles.
+constexpr double largest_magnitude = 0x1p200;
 
 Vec3 column(const Affine& map, std::size_t c) { return {map.m[0][c], map.m[1][c], map.m[2][c]}; }
 
@@ -88,11 +90,20 @@ class LeafCompiler::Primitives {
 
     Result<Compiled> compile(const PlacedPrimitive& placed, const Box3& bounds) {
         bounds_ = bounds;
+        if (!std::holds_alternative<HalfSpace>(placed.primitive) &&
+            !(is_finite(to_lattice(bounds.low)) && is_finite(to_lattice(bounds.high))))
+            return too_far();
         return std::visit([&](const auto& primitive) { return put(primitive, placed.place); },
                           placed.primitive);
     }
 
   private:
+    static Error too_far() {
+        return {ErrorCode::limit,
+                "a primitive reaches farther than a double can hold, in units of the lattice",
+                {}};
+    }
+
     Vec3 to_lattice(Vec3 world) const {
         const exact::Lattice& lattice = program_.lattice;
         Vec3 p;
@@ -149,27 +160,24 @@ class LeafCompiler::Primitives {
             add_plane(normal, low);
             add_plane(-normal, high);
         }
-        return end_convex(place(0.5 * (cuboid.low + cuboid.high)));
+        return end_convex();
     }
 
+    /// By coefficients: a point on the plane may be farther away than doubles reach, although the plane is near.
     Result<Compiled> put(const HalfSpace& half_space, const Affine& place) {
-        // A point on the plane, and the normal by the inverse transpose.
-        int exponent = 0;
-        std::frexp(largest_component(half_space.normal), &exponent);
-        const Vec3 direction = scaled_near_one(half_space.normal);
-        const Vec3 through =
-            place((std::ldexp(half_space.offset, -exponent) / dot(direction, direction)) * direction);
+        // The image of the normal, by the inverse transpose, and the offset from the lattice's origin.
         const Matrix inverted = inverse(place);
-        Vec3 normal;
+        std::array<long double, 3> inward{};
+        long double offset = half_space.offset, of_origin = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-            long double sum = 0;
             for (std::size_t r = 0; r < 3; ++r)
-                sum += inverted[r][c] * half_space.normal[static_cast<int>(r)];
-            normal[static_cast<int>(c)] = static_cast<double>(-sum);
+                inward[c] -= inverted[r][c] * half_space.normal[static_cast<int>(r)];
+            offset -= inward[c] * place.m[c][3];
+            of_origin += inward[c] * static_cast<long double>(program_.lattice.origin()[c]);
         }
         begin_convex();
-        add_plane(normal, to_lattice(through));
-        return end_convex(through);
+        add(snap_plane(inward, offset / program_.lattice.unit() + of_origin));
+        return end_convex();
     }
 
     Result<Compiled> put(const Ball& ball, const Affine& place) {
@@ -177,13 +185,13 @@ class LeafCompiler::Primitives {
         SecondOrderCone cone = local_frame(place, {}, 1 / static_cast<long double>(ball.radius), 3);
         cone.row[3][3] = 1;
         add_cone(cone);
-        return end_convex(place({}));
+        return end_convex();
     }
 
     Result<Compiled> put(const Frustum& frustum, const Affine& place) {
         begin_convex();
         const long double largest = std::max(frustum.bottom, frustum.top);
-        const Vec3 middle{0, 0, 0.5 * (frustum.low + frustum.high)};
+        const Vec3 middle{0, 0, 0.5 * frustum.low + 0.5 * frustum.high};
         SecondOrderCone cone = local_frame(place, middle, 1 / largest, 3);
         // The third row, along the axis, becomes the radius there.
         const long double change = (static_cast<long double>(frustum.top) - frustum.bottom) /
@@ -198,19 +206,22 @@ class LeafCompiler::Primitives {
         if (place.mirrors()) normal = -normal;
         add_plane(normal, to_lattice(place({0, 0, frustum.low})));
         add_plane(-normal, to_lattice(place({0, 0, frustum.high})));
-        return end_convex(place(middle));
+        return end_convex();
     }
 
     Result<Compiled> put(const Torus& torus, const Affine& place) {
         std::optional<Leaf> leaf = leaf_within(LeafKind::torus);
         if (!leaf) return Compiled{};
-        const SecondOrderCone frame = local_frame(place, {}, 1, 3);
+        // With radii near one, whose squares are doubles.
+        const int exponent = std::ilogb(std::max(torus.major, torus.minor));
+        const SecondOrderCone frame = local_frame(place, {}, std::ldexp(1.0L, -exponent), 3);
         LatticeTorus on_lattice;
         for (std::size_t r = 0; r < 3; ++r) on_lattice.row[r] = frame.row[r];
         on_lattice.origin = frame.origin;
-        on_lattice.major = torus.major;
-        on_lattice.minor = torus.minor;
+        on_lattice.major = std::ldexp(torus.major, -exponent);
+        on_lattice.minor = std::ldexp(torus.minor, -exponent);
         on_lattice.finish();
+        if (!(on_lattice.magnitude <= largest_magnitude)) return Compiled{};
         leaf->first = static_cast<std::uint32_t>(program_.tori.size());
         program_.tori.push_back(on_lattice);
         return add(*leaf);
@@ -244,7 +255,10 @@ class LeafCompiler::Primitives {
         const double turn = place.mirrors() ? -1 : 1;
         std::vector<Vec3> points;
         points.reserve(mesh.vertices.size());
-        for (const Vec3& vertex : mesh.vertices) points.push_back(place(vertex));
+        for (const Vec3& vertex : mesh.vertices) {
+            points.push_back(place(vertex));
+            if (!is_finite(to_lattice(points.back()))) return too_far();
+        }
         const Neighbours neighbours(mesh);
         for (const mesh::Triangle& triangle : mesh.triangles) {
             const Vec3 a = points[triangle[0]], b = points[triangle[1]], c = points[triangle[2]];
@@ -259,10 +273,8 @@ class LeafCompiler::Primitives {
             forget_body();
             return Compiled{*known, false};
         }
-        Vec3 mean;
-        for (const Vec3& point : points) mean = mean + (1 / static_cast<double>(points.size())) * point;
         const std::uint64_t hash = hash_of_planes();
-        const Compiled compiled = end_convex(mean);
+        const Compiled compiled = end_convex();
         if (compiled.leaf) bodies_.emplace(hash, *compiled.leaf);
         return compiled;
     }
@@ -321,8 +333,8 @@ class LeafCompiler::Primitives {
         first_plane_ = program_.planes.size();
         empty_ = false;
     }
-    void add_plane(Vec3 inward, Vec3 through) {
-        const SnappedPlane snapped = snap_plane(inward, through);
+    void add_plane(Vec3 inward, Vec3 through) { add(snap_plane(inward, through)); }
+    void add(const SnappedPlane& snapped) {
         if (!snapped.plane) {
             empty_ |= !snapped.whole;
             return;
@@ -332,6 +344,10 @@ class LeafCompiler::Primitives {
     }
     void add_cone(SecondOrderCone& cone) {
         cone.finish();
+        if (!(cone.magnitude <= largest_magnitude)) {
+            empty_ = true;
+            return;
+        }
         program_.constraints.push_back(static_cast<std::uint32_t>(program_.cones.size()) |
                                        ConstraintId::cone_bit);
         program_.cones.push_back(cone);
@@ -352,7 +368,7 @@ class LeafCompiler::Primitives {
         program_.constraints.resize(first_constraint_);
         program_.planes.resize(first_plane_);
     }
-    Compiled end_convex(Vec3 inside) {
+    Compiled end_convex() {
         const std::optional<Leaf> leaf = leaf_within(LeafKind::convex);
         const std::size_t count = program_.constraints.size() - first_constraint_;
         if (empty_ || !leaf) {
@@ -363,9 +379,6 @@ class LeafCompiler::Primitives {
         Leaf convex = *leaf;
         convex.first = static_cast<std::uint32_t>(first_constraint_);
         convex.count = static_cast<std::uint32_t>(count);
-        const Vec3 witness = to_lattice(inside);
-        for (int axis = 0; axis < 3; ++axis)
-            convex.witness[static_cast<std::size_t>(axis)] = clamped(std::floor(witness[axis]));
         return add(convex);
     }
 

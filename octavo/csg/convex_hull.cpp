@@ -40,15 +40,17 @@ class Hull {
     void round() {
         Box3 box;
         for (const Vec3& p : points_) box.add(p);
-        const Vec3 extent = box.extents();
-        const double largest = std::max({extent.x, extent.y, extent.z});
-        const double scale = largest > 0 ? std::ldexp(1.0, 25 - std::ilogb(largest)) : 1;
+        // In halves, which no difference of doubles overflows; and a power of two so large may be no double.
+        double largest = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            largest = std::max(largest, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
+        const int exponent = largest > 0 ? 25 - std::ilogb(largest) : 0;
         spots_.reserve(points_.size());
         for (const Vec3& p : points_) {
             Spot spot;
             for (int axis = 0; axis < 3; ++axis)
-                spot[static_cast<std::size_t>(axis)] =
-                    static_cast<std::int64_t>(std::nearbyint((p[axis] - box.low[axis]) * scale));
+                spot[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(
+                    std::nearbyint(std::ldexp(0.5 * p[axis] - 0.5 * box.low[axis], exponent)));
             spots_.push_back(spot);
         }
     }

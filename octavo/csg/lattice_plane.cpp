@@ -22,6 +22,35 @@ bool nearly_equal(const LatticePlane& a, const LatticePlane& b) {
     return std::abs(a.offset - b.offset) <= offset_step;
 }
 
+template <class Real>
+Real largest_of(const std::array<Real, 3>& normal) {
+    return std::max({std::fabs(normal[0]), std::fabs(normal[1]), std::fabs(normal[2])});
+}
+
+/// `component` has 1 or -1 for its largest.
+SnappedPlane rounded(const std::array<double, 3>& component, long double offset) {
+    SnappedPlane result;
+    LatticePlane plane;
+    constexpr double scale = static_cast<double>(std::int64_t{1} << LatticePlane::normal_bits);
+    int components = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        plane.normal[axis] = static_cast<std::int64_t>(std::nearbyint(component[axis] * scale));
+        components += plane.normal[axis] != 0;
+    }
+    // Beyond this no point of the universe, where the three products are at most 3 · 2^26, changes the sign.
+    constexpr long double far = 4.0L * exact::universe_side;
+    if (!(std::fabs(static_cast<double>(offset)) <= static_cast<double>(far))) {
+        result.whole = offset > 0;
+        return result;
+    }
+    const int fraction_bits = components == 1 ? 0 : offset_fraction_bits;
+    const auto steps =
+        static_cast<std::int64_t>(std::nearbyint(static_cast<double>(offset * (1 << fraction_bits))));
+    plane.offset = steps * (std::int64_t{1} << (LatticePlane::normal_bits - fraction_bits));
+    result.plane = plane;
+    return result;
+}
+
 }  // namespace
 
 int same_plane(const LatticePlane& a, const LatticePlane& b) {
@@ -30,37 +59,25 @@ int same_plane(const LatticePlane& a, const LatticePlane& b) {
 }
 
 SnappedPlane snap_plane(Vec3 normal, Vec3 through) {
-    int largest = 0;
-    for (int axis = 1; axis < 3; ++axis)
-        if (std::fabs(normal[axis]) > std::fabs(normal[largest])) largest = axis;
-    const double divisor = std::fabs(normal[largest]);
+    const double divisor = largest_of(std::array{normal.x, normal.y, normal.z});
     OCTAVO_CHECK(divisor > 0, "a plane needs a normal");
-
-    SnappedPlane result;
-    LatticePlane plane;
-    constexpr double scale = static_cast<double>(std::int64_t{1} << LatticePlane::normal_bits);
-    int slanted = 0;
+    std::array<double, 3> component{};
     long double offset = 0;
     for (int axis = 0; axis < 3; ++axis) {
         // Divided before they are multiplied: a normal may be as small or large as doubles go.
-        const double component = normal[axis] / divisor;
-        const auto rounded = static_cast<std::int64_t>(std::nearbyint(component * scale));
-        plane.normal[static_cast<std::size_t>(axis)] = rounded;
-        slanted += axis != largest && rounded != 0;
-        offset -= static_cast<long double>(component) * through[axis];
+        component[static_cast<std::size_t>(axis)] = normal[axis] / divisor;
+        offset -= static_cast<long double>(component[static_cast<std::size_t>(axis)]) * through[axis];
     }
-    // Beyond this no point of the universe, where the three products are at most 3 · 2^26, changes the sign.
-    constexpr long double far = 4.0L * exact::universe_side;
-    if (!(std::fabs(static_cast<double>(offset)) <= static_cast<double>(far))) {
-        result.whole = offset > 0;
-        return result;
-    }
-    const int fraction_bits = slanted == 0 ? 0 : offset_fraction_bits;
-    const auto steps =
-        static_cast<std::int64_t>(std::nearbyint(static_cast<double>(offset * (1 << fraction_bits))));
-    plane.offset = steps * (std::int64_t{1} << (LatticePlane::normal_bits - fraction_bits));
-    result.plane = plane;
-    return result;
+    return rounded(component, offset);
+}
+
+SnappedPlane snap_plane(const std::array<long double, 3>& normal, long double offset) {
+    const long double divisor = largest_of(normal);
+    OCTAVO_CHECK(divisor > 0, "a plane needs a normal");
+    std::array<double, 3> component{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        component[axis] = static_cast<double>(normal[axis] / divisor);
+    return rounded(component, offset / divisor);
 }
 
 }  // namespace octavo::csg

@@ -53,5 +53,7 @@ struct SnappedPlane {
     bool whole = false;
 };
 SnappedPlane snap_plane(Vec3 normal, Vec3 through);
+/// The same of the points with normal · p + offset >= 0.
+SnappedPlane snap_plane(const std::array<long double, 3>& normal, long double offset);
 
 }  // namespace octavo::csg

@@ -56,7 +56,7 @@ struct LatticeTorus {
         const double radial = rho - major;
         const double core = std::sqrt(radial * radial + p[2] * p[2]);
         const double slack = std::fabs(core - minor) - error(farthest);
-        if (slack <= 0) return octree::Color::gray;
+        if (!(slack > 0)) return octree::Color::gray;
 
         double step = reach * half;
         const double nearest_core = core - step, nearest_axis = rho - step;
@@ -68,7 +68,7 @@ struct LatticeTorus {
             const double bend = 0.5 * step * step * (1 / nearest_core + 1 / nearest_axis);
             step = std::fmin(step, (linear * half + bend) * (1 + 0x1p-40));
         }
-        if (slack <= step) return octree::Color::gray;
+        if (!(slack > step)) return octree::Color::gray;
         return core < minor ? octree::Color::black : octree::Color::white;
     }
 

@@ -115,6 +115,30 @@ struct Finite {
 /// lattice that holds it, and the products that a determinant is made of cancel to their rounding.
 constexpr double least_ratio = 0x1p-46;
 
+using Rows = std::array<std::array<double, 4>, 3>;
+
+/// The square of the volume of a box whose edges are as long as the rows, or the columns if that is less.
+template <class Real>
+Real least_square_of_box(const Rows& m) {
+    const auto square = [](Real x, Real y, Real z) { return x * x + y * y + z * z; };
+    Real rows = 1, columns = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        rows *= square(m[i][0], m[i][1], m[i][2]);
+        columns *= square(m[0][i], m[1][i], m[2][i]);
+    }
+    return std::min(rows, columns);
+}
+
+template <class Real>
+Real determinant_of(const Rows& m) {
+    Real sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        sum += m[0][i] * (static_cast<Real>(m[1][j]) * m[2][k] - static_cast<Real>(m[1][k]) * m[2][j]);
+    }
+    return sum;
+}
+
 }  // namespace
 
 bool is_degenerate(const Primitive& primitive) { return std::visit(Degenerate{}, primitive); }
@@ -129,22 +153,17 @@ bool is_singular(const Affine& map) {
     // Hadamard's ratio: the volume that the unit cube's image spans, over that of a box with its edges, taken by
     // rows and by columns, so that scaling an axis before or after does not count.
     const auto& m = map.m;
-    const auto square = [](double x, double y, double z) { return x * x + y * y + z * z; };
     // Squares first: six roots a primitive were a tenth of the time that compiling an expression takes.
-    double row_squares = 1, column_squares = 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-        row_squares *= square(m[i][0], m[i][1], m[i][2]);
-        column_squares *= square(m[0][i], m[1][i], m[2][i]);
-    }
-    const double least_square = std::min(row_squares, column_squares);
+    const double least_square = least_square_of_box<double>(m);
     if (least_square > 1e-200 && least_square < 1e200 &&
         std::fabs(map.determinant()) > least_ratio * std::sqrt(least_square))
         return false;
-    // Otherwise with rows and columns brought to one size, where nothing overflows or vanishes.
+    // Otherwise where nothing overflows or vanishes, and last of all with both rows and columns brought to one size.
+    if (std::fabs(determinant_of<long double>(m)) >
+        least_ratio * std::sqrt(least_square_of_box<long double>(m)))
+        return false;
     const Affine even = balanced(map);
-    row_squares = 1;
-    for (const auto& row : even.m) row_squares *= square(row[0], row[1], row[2]);
-    return !(std::fabs(even.determinant()) > least_ratio * std::sqrt(row_squares));
+    return !(std::fabs(even.determinant()) > least_ratio * std::sqrt(least_square_of_box<double>(even.m)));
 }
 
 }  // namespace octavo::csg

@@ -65,8 +65,6 @@ struct Leaf {
     LeafKind kind = LeafKind::box;
     /// Outside this lattice box the leaf is white; a leaf of kind `box` is black inside. Clamped to the universe.
     std::array<std::int32_t, 3> low{}, high{};
-    /// Convex: a point of its inside, as near as rounding puts it. Only ever a reason to stay gray.
-    std::array<std::int32_t, 3> witness{};
     /// Convex: its constraints are constraints[first, first + count). Torus or polyhedron: first is its index.
     std::uint32_t first = 0, count = 0;
 };
@@ -101,8 +99,9 @@ struct CompileOptions {
 };
 
 /// Puts an expression on a lattice. Errors: bad_input when a number is not finite; limit when the expression is
-/// unbounded and no universe is given, when it has too many primitives, or lies too far from the origin for its
-/// size; cancelled.
+/// unbounded and no universe is given, when it has too many primitives, lies too far from the origin for its size, or
+/// a primitive reaches farther than a double can hold, in the world or in lattice units; cancelled. A round body
+/// thinner than 2^-200 lattice units is nothing.
 Result<Program> compile(const Expr& expression, const CompileOptions& options = {},
                         const Context& context = {});
 

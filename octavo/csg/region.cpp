@@ -16,10 +16,9 @@ namespace clipper = ClipperLib;
 // room without rounding.
 constexpr int coordinate_bits = 40;
 
-/// The power of two that takes coordinates up to `extent` to the integer grid.
-double grid_scale(double extent) {
-    return extent > 0 ? std::ldexp(1.0, coordinate_bits - 1 - std::ilogb(extent)) : 1;
-}
+/// The exponent of the power of two, which may be no double, that takes coordinates up to twice `half` to the integer
+/// grid.
+int grid_exponent(double half) { return half > 0 ? coordinate_bits - 2 - std::ilogb(half) : 0; }
 
 double extent_of(const Region& region) {
     double extent = 0;
@@ -34,25 +33,30 @@ double extent_of(std::span<const Region> regions) {
     return extent;
 }
 
-clipper::Paths to_paths(const Region& region, double scale) {
+int grid_exponent_for(const Region& region) { return grid_exponent(0.5 * extent_of(region)); }
+int grid_exponent_for(std::span<const Region> regions) { return grid_exponent(0.5 * extent_of(regions)); }
+
+clipper::Paths to_paths(const Region& region, int exponent) {
+    const auto on_grid = [&](double coordinate) {
+        return static_cast<clipper::cInt>(std::nearbyint(std::ldexp(coordinate, exponent)));
+    };
     clipper::Paths paths;
     for (const Contour& contour : region.contours) {
         clipper::Path path;
-        for (const Vec2& p : contour)
-            path.emplace_back(static_cast<clipper::cInt>(std::nearbyint(p.x * scale)),
-                              static_cast<clipper::cInt>(std::nearbyint(p.y * scale)));
+        for (const Vec2& p : contour) path.emplace_back(on_grid(p.x), on_grid(p.y));
         paths.push_back(std::move(path));
     }
     return paths;
 }
 
-Region from_paths(const clipper::Paths& paths, double scale) {
+Region from_paths(const clipper::Paths& paths, int exponent) {
     Region region;
     for (const clipper::Path& path : paths) {
         if (path.size() < 3) continue;
         Contour contour;
         for (const clipper::IntPoint& p : path)
-            contour.push_back({static_cast<double>(p.X) / scale, static_cast<double>(p.Y) / scale});
+            contour.push_back({std::ldexp(static_cast<double>(p.X), -exponent),
+                               std::ldexp(static_cast<double>(p.Y), -exponent)});
         region.contours.push_back(std::move(contour));
     }
     return region;
@@ -70,52 +74,53 @@ clipper::Paths execute(clipper::Clipper& engine, clipper::ClipType type,
 
 Region make_region(const std::vector<Contour>& contours, FillRule rule) {
     const Region raw{contours};
-    const double scale = grid_scale(extent_of(raw));
+    const int exponent = grid_exponent_for(raw);
     clipper::Clipper engine;
-    engine.AddPaths(to_paths(raw, scale), clipper::ptSubject, true);
+    engine.AddPaths(to_paths(raw, exponent), clipper::ptSubject, true);
     return from_paths(execute(engine, clipper::ctUnion,
                               rule == FillRule::even_odd ? clipper::pftEvenOdd : clipper::pftNonZero),
-                      scale);
+                      exponent);
 }
 
 Region unite(std::span<const Region> regions) {
-    const double scale = grid_scale(extent_of(regions));
+    const int exponent = grid_exponent_for(regions);
     clipper::Clipper engine;
-    for (const Region& region : regions) engine.AddPaths(to_paths(region, scale), clipper::ptSubject, true);
+    for (const Region& region : regions)
+        engine.AddPaths(to_paths(region, exponent), clipper::ptSubject, true);
     // Holes run clockwise: where one region's hole lies in another's inside the numbers still add to one or more.
     clipper::Paths result;
     engine.StrictlySimple(true);
     engine.Execute(clipper::ctUnion, result, clipper::pftPositive, clipper::pftPositive);
-    return from_paths(result, scale);
+    return from_paths(result, exponent);
 }
 
 Region intersect(std::span<const Region> regions) {
     if (regions.empty()) return {};
-    const double scale = grid_scale(extent_of(regions));
-    clipper::Paths paths = to_paths(regions[0], scale);
+    const int exponent = grid_exponent_for(regions);
+    clipper::Paths paths = to_paths(regions[0], exponent);
     for (const Region& region : regions.subspan(1)) {
         clipper::Clipper engine;
         engine.AddPaths(paths, clipper::ptSubject, true);
-        engine.AddPaths(to_paths(region, scale), clipper::ptClip, true);
+        engine.AddPaths(to_paths(region, exponent), clipper::ptClip, true);
         paths = execute(engine, clipper::ctIntersection);
     }
-    return from_paths(paths, scale);
+    return from_paths(paths, exponent);
 }
 
 Region subtract(std::span<const Region> regions) {
     if (regions.empty()) return {};
-    const double scale = grid_scale(extent_of(regions));
+    const int exponent = grid_exponent_for(regions);
     const Region removed = unite(regions.subspan(1));
     clipper::Clipper engine;
-    engine.AddPaths(to_paths(regions[0], scale), clipper::ptSubject, true);
-    engine.AddPaths(to_paths(removed, scale), clipper::ptClip, true);
-    return from_paths(execute(engine, clipper::ctDifference), scale);
+    engine.AddPaths(to_paths(regions[0], exponent), clipper::ptSubject, true);
+    engine.AddPaths(to_paths(removed, exponent), clipper::ptClip, true);
+    return from_paths(execute(engine, clipper::ctDifference), exponent);
 }
 
 Region offset(const Region& region, double distance, const OffsetOptions& options) {
     if (distance == 0) return region;
-    const double scale = grid_scale(extent_of(region) + std::fabs(distance));
-    const double radius = std::fabs(distance) * scale;
+    const int exponent = grid_exponent(0.5 * extent_of(region) + 0.5 * std::fabs(distance));
+    const double step = std::ldexp(distance, exponent), radius = std::fabs(step);
     // Clipper asks how far an arc may be from its chords; its miter limit of 1e6 cuts no corner that a polygon
     // would have.
     const double tolerance = radius * (1 - std::cos(std::acos(-1.0) / std::max(options.segments, 3)));
@@ -123,10 +128,10 @@ Region offset(const Region& region, double distance, const OffsetOptions& option
     const clipper::JoinType join = options.join == OffsetOptions::Join::round   ? clipper::jtRound
                                    : options.join == OffsetOptions::Join::miter ? clipper::jtMiter
                                                                                 : clipper::jtSquare;
-    engine.AddPaths(to_paths(region, scale), join, clipper::etClosedPolygon);
+    engine.AddPaths(to_paths(region, exponent), join, clipper::etClosedPolygon);
     clipper::Paths result;
-    engine.Execute(result, distance * scale);
-    return from_paths(result, scale);
+    engine.Execute(result, step);
+    return from_paths(result, exponent);
 }
 
 Region convex_hull(std::vector<Vec2> points) {
@@ -137,8 +142,11 @@ Region convex_hull(std::vector<Vec2> points) {
     // Andrew's monotone chain.
     Contour hull(2 * points.size());
     std::size_t count = 0;
-    const auto turn = [](Vec2 a, Vec2 b, Vec2 c) {
-        return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    // Brought near one first: squares of lengths overflow from 1e154 on and vanish below 1e-162.
+    const double scale = std::ldexp(1.0, std::clamp(-std::ilogb(extent_of(Region{{points}})), -1000, 1000));
+    const auto turn = [scale](Vec2 a, Vec2 b, Vec2 c) {
+        const double ax = scale * a.x, ay = scale * a.y;
+        return (scale * b.x - ax) * (scale * c.y - ay) - (scale * b.y - ay) * (scale * c.x - ax);
     };
     for (const Vec2& p : points) {
         while (count >= 2 && turn(hull[count - 2], hull[count - 1], p) <= 0) --count;
@@ -155,8 +163,8 @@ Region convex_hull(std::vector<Vec2> points) {
 }
 
 Region minkowski_sum(const Region& a, const Region& b) {
-    const double scale = grid_scale(extent_of(a) + extent_of(b));
-    const clipper::Paths paths_a = to_paths(a, scale), paths_b = to_paths(b, scale);
+    const int exponent = grid_exponent(0.5 * extent_of(a) + 0.5 * extent_of(b));
+    const clipper::Paths paths_a = to_paths(a, exponent), paths_b = to_paths(b, exponent);
     clipper::Clipper engine;
     for (const clipper::Path& outline_b : paths_b) {
         // Clipper sweeps b's outline along a's outlines; what lies deep inside is a itself, moved to a point of b.
@@ -174,7 +182,7 @@ Region minkowski_sum(const Region& a, const Region& b) {
     }
     clipper::Paths result;
     engine.Execute(clipper::ctUnion, result, clipper::pftPositive, clipper::pftPositive);
-    return from_paths(result, scale);
+    return from_paths(result, exponent);
 }
 
 Region transform(const Affine& map, const Region& region) {

@@ -57,6 +57,54 @@ TEST(Affine, TheSignOfTheDeterminantIsThatOfRationals) {
     EXPECT_GT(flat, 80);
 }
 
+TEST(Affine, TheSignOfTheDeterminantIsThatOfRationalsWhateverEntriesVanishBesideOthers) {
+    using octavo::tests::Rational;
+    std::mt19937_64 random(4);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<std::uint64_t>(n)); };
+    int flat = 0;
+    for (int round = 0; round < 3000; ++round) {
+        Affine map;
+        std::array<std::array<Rational, 3>, 3> a;
+        for (std::size_t r = 0; r < 3; ++r)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const int exponent = below(3) ? 0 : below(2090) - 1070;
+                map.m[r][c] = std::ldexp(below(5) - 2, exponent);
+                a[r][c] = Rational(map.m[r][c]);
+            }
+        const Rational exact = a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
+                               a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+                               a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+        ASSERT_EQ(determinant_sign(map), exact.sign()) << round;
+        flat += exact.sign() == 0;
+    }
+    EXPECT_GT(flat, 100);
+}
+
+TEST(Affine, CrossDirectionsOfNearlyParallelVectorsLoseNothing) {
+    using octavo::tests::Rational;
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int round = 0; round < 2000; ++round) {
+        const double size = std::ldexp(1, round % 3 * 900 - 900), step = std::ldexp(1, -(round % 50));
+        const Vec3 a{uniform(random), uniform(random), uniform(random)};
+        const Vec3 b = a + step * Vec3{uniform(random), uniform(random), uniform(random)};
+        const Vec3 normal = cross_direction(size * a, b);
+        // Their ratio to the exact components is one for all, but for some units in the last place.
+        std::array<Rational, 3> exact{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+            exact[static_cast<std::size_t>(axis)] =
+                Rational(a[i]) * Rational(b[j]) - Rational(a[j]) * Rational(b[i]);
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t next = (axis + 1) % 3;
+            const Rational one = exact[axis] * Rational(normal[static_cast<int>(next)]),
+                           other = exact[next] * Rational(normal[static_cast<int>(axis)]);
+            EXPECT_LE(abs(one - other), abs(one) * Rational(0x1p-50)) << round;
+        }
+    }
+}
+
 TEST(Affine, MirrorsIsDecidedBeyondRounding) {
     // The upper left minor is -2^-60, which products rounded to doubles lose.
     const double step = 0x1p-30;

@@ -272,6 +272,39 @@ TEST(CsgWalls, MeshesWithACommonFaceLeaveNone) {
 
 // --- Measures and limits ----------------------------------------------------------------------------------------
 
+TEST(CsgBuild, PrimitivesAreTheSameAtAnyScale) {
+    const Affine turn{{{{0.36, 0.48, -0.8, 0.1}, {-0.8, 0.6, 0, 0.2}, {0.48, 0.64, 0.6, -0.3}}}};
+    const auto scaled_turn = [&](double size) {
+        Affine map = turn;
+        for (auto& row : map.m) row[3] *= size;
+        return map;
+    };
+    const auto scaled = [](std::size_t kind, double s) -> Expr {
+        switch (kind) {
+            case 0:
+                return Expr(csg::Cuboid{{0, -s, 0.5 * s}, {s, s, 2 * s}});
+            case 1:
+                return Expr(csg::Ball{0.7 * s});
+            case 2:
+                return Expr(csg::Frustum{-s, s, 0.75 * s, 0.25 * s});
+            case 3:
+                return Expr(csg::Torus{0.75 * s, 0.2 * s});
+            default:
+                return csg::intersect(
+                    {Expr(csg::Cuboid{{-s, -s, -s}, {s, s, s}}), Expr(csg::HalfSpace{{1, 2, 3}, 0.4 * s})});
+        }
+    };
+    CsgBuildOptions options;
+    options.depth = 5;
+    for (std::size_t kind = 0; kind < 5; ++kind) {
+        const CsgOctree plain = build_or_die(transform(turn, scaled(kind, 1)), options);
+        for (const double size : {0x1p-960, 0x1p-560, 0x1p-500, 0x1p500, 0x1p560, 0x1p900}) {
+            const CsgOctree tree = build_or_die(transform(scaled_turn(size), scaled(kind, size)), options);
+            EXPECT_EQ(tree.octree.code(), plain.octree.code()) << kind << ' ' << size;
+        }
+    }
+}
+
 TEST(CsgBuild, VolumesEncloseTheTrueOneAndCloseIn) {
     const double pi = std::acos(-1.0);
     const struct {

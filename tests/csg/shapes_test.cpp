@@ -48,7 +48,12 @@ TEST(Singular, IsWhatSqueezesSpaceFlatWhateverTheScale) {
             << size;
     }
     EXPECT_TRUE(is_singular(compose(turn, compose(diagonal(1, 1, 1e-17), turn))));
-    EXPECT_FALSE(is_singular(compose(turn, diagonal(1, 1, 1e-17))));
+    for (const double size : {1.0, 1e-60, 1e-200, 1e60, 1e200}) {
+        const Affine scale = diagonal(size, size, size);
+        EXPECT_FALSE(is_singular(compose(turn, compose(diagonal(1, 1, 1e-17), scale)))) << size;
+        EXPECT_FALSE(is_singular(compose(turn, compose(diagonal(1e-30, 1e-30, 1), scale)))) << size;
+        EXPECT_FALSE(is_singular(compose(diagonal(1e-30, 1e-30, 1), compose(turn, scale)))) << size;
+    }
 }
 
 TEST(SolidMesh, KnowsOutsideAndConvexityWhateverTheScale) {
@@ -94,12 +99,49 @@ TEST(ConvexHull, HoldsAllPointsWhateverTheirPosition) {
     }
 }
 
+TEST(ConvexHull, IsFoundAtAnyScale) {
+    const std::vector<Vec3> unit{{-1, -1, -1}, {1, -1, 0.5}, {0, 1, 0.25}, {0.5, 0.5, 1}, {0, 0, 0.125}};
+    const Contour corners{{-1, -1}, {1, -1}, {0, 1}, {0.5, 0.5}, {0, 0}};
+    for (const double size : {1.0, 0x1p-1060, 0x1p-990, 0x1p-600, 0x1p600, 0x1p1023}) {
+        std::vector<Vec3> points;
+        for (const Vec3& p : unit) points.push_back(size * p);
+        const std::optional<mesh::Mesh> hull = convex_hull(points);
+        ASSERT_TRUE(hull) << size;
+        EXPECT_EQ(hull->vertices.size(), 4u) << size;
+        Contour flat;
+        for (const Vec2& p : corners) flat.push_back({size * p.x, size * p.y});
+        const Region around = convex_hull(flat);
+        ASSERT_EQ(around.contours.size(), 1u) << size;
+        EXPECT_EQ(around.contours[0].size(), 4u) << size;
+    }
+}
+
 TEST(ConvexHull, FlatAndSmallSetsHaveNone) {
     EXPECT_FALSE(convex_hull(std::vector<Vec3>{}));
     EXPECT_FALSE(convex_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     EXPECT_FALSE(convex_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {3, 4, 0}}));
     EXPECT_FALSE(convex_hull(std::vector<Vec3>{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}));
     EXPECT_TRUE(convex_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e-5}}));
+}
+
+TEST(Regions, AreMadeAtAnyScale) {
+    const Contour square{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, moved{{1, 1}, {3, 1}, {3, 3}, {1, 3}};
+    for (const double size : {1.0, 0x1p-1060, 0x1p-990, 0x1p-600, 0x1p600, 0x1p1021}) {
+        const auto scaled = [&](Contour contour) {
+            for (Vec2& p : contour) p = {size * p.x, size * p.y};
+            return contour;
+        };
+        const Region a = make_region({scaled(square)}, FillRule::even_odd),
+                     b = make_region({scaled(moved)}, FillRule::non_zero);
+        ASSERT_EQ(a.contours.size(), 1u) << size;
+        EXPECT_EQ(a.contours[0].size(), 4u) << size;
+        const Region both = unite(std::vector{a, b}), common = intersect(std::vector{a, b});
+        ASSERT_EQ(both.contours.size(), 1u) << size;
+        EXPECT_EQ(both.contours[0].size(), 8u) << size;
+        EXPECT_EQ(bounds(both).high, (Vec3{3 * size, 3 * size, 0})) << size;
+        EXPECT_EQ(bounds(common).low, (Vec3{size, size, 0})) << size;
+        EXPECT_EQ(bounds(minkowski_sum(a, b)).high.x, 5 * size) << size;
+    }
 }
 
 TEST(Regions, HolesAndIslandsKeepTheirAreas) {
