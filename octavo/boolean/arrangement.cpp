@@ -6,6 +6,7 @@
 
 #include <octavo/base/parallel.hpp>
 #include <octavo/boolean/arrangement.hpp>
+#include <octavo/boolean/balanced_chunks.hpp>
 #include <octavo/boolean/cells.hpp>
 #include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/cut_planes.hpp>
@@ -338,11 +339,13 @@ Complex arrange(const Soup& soup, const Contacts& contacts, PointTable& points, 
     const Sheets sheets = find_sheets(soup, contacts);
     complex.sheets = sheets.size();
     const CutPlanes planes = find_cut_planes(soup, contacts, context);
-    constexpr std::size_t grain = 64;
-    std::vector<Pieces> pieces((sheets.size() + grain - 1) / grain);
-    parallel_chunks(context, sheets.size(), grain, [&](std::size_t begin, std::size_t end) {
-        SheetCutter cutter(soup, contacts.faces, points, planes, pieces[begin / grain]);
-        for (std::size_t i = begin; i < end; ++i) cutter.run(sheets[i]);
+    const std::vector<std::size_t> begin = balanced_chunks(sheets.size(), 64, 1024, [&](std::size_t sheet) {
+        return sheets[sheet].faces.size() + sheets[sheet].cuts.size();
+    });
+    std::vector<Pieces> pieces(begin.size() - 1);
+    parallel_chunks(context, pieces.size(), 1, [&](std::size_t chunk, std::size_t) {
+        SheetCutter cutter(soup, contacts.faces, points, planes, pieces[chunk]);
+        for (std::size_t sheet = begin[chunk]; sheet < begin[chunk + 1]; ++sheet) cutter.run(sheets[sheet]);
     });
     for (const std::uint32_t face : sheets.faces) {
         complex.is_cut[face] = 1;

@@ -22,6 +22,12 @@
 namespace octavo::boolean {
 
 class NearFacets {
+    /// The triangles of a facet that is in a pair.
+    struct Group {
+        std::uint32_t facet, begin, end, tree;
+        std::uint32_t size() const { return end - begin; }
+    };
+
   public:
     /// Facets of the soup, by which the triangles in their planes are meant.
     using Pair = NearPairs::Pair;
@@ -33,17 +39,41 @@ class NearFacets {
     const UninitialisedVector<Pair>& pairs() const { return pairs_; }
     bool empty() const { return pairs_.empty(); }
 
-    /// Calls `visit(first, second)` for the triangles of a pair that may meet, unless they are inverted; once for two
-    /// of one facet.
+    /// The work on a pair. It has parts: the triangles of one of the facets.
+    class Work {
+      public:
+        std::uint32_t parts() const { return few_->size(); }
+
+      private:
+        friend NearFacets;
+        const Group *few_, *many_;
+        bool is_first_few_;
+    };
+    Work work(const Pair& pair) const {
+        const Group &first = group_of(pair.first),
+                    &second = pair.first == pair.second ? first : group_of(pair.second);
+        Work work;
+        work.is_first_few_ = first.size() <= second.size();
+        work.few_ = work.is_first_few_ ? &first : &second;
+        work.many_ = work.is_first_few_ ? &second : &first;
+        return work;
+    }
+    /// Calls `visit(first, second)` for the triangles of parts [begin, end) that may meet, unless they are inverted;
+    /// once for two of one facet.
+    template <class Visit>
+    void for_each(const Work& work, std::uint32_t begin, std::uint32_t end, const Visit& visit) const {
+        if (work.few_ == work.many_)
+            each_within(*work.few_, begin, end, visit);
+        else if (work.is_first_few_)
+            each_between(*work.many_, *work.few_, begin, end,
+                         [&](std::uint32_t b, std::uint32_t a) { visit(a, b); });
+        else
+            each_between(*work.many_, *work.few_, begin, end, visit);
+    }
     template <class Visit>
     void for_each(const Pair& pair, const Visit& visit) const {
-        const Group &first = group_of(pair.first), &second = group_of(pair.second);
-        if (pair.first == pair.second)
-            each_within(first, visit);
-        else if (first.size() > second.size())
-            each_between(first, second, [&](std::uint32_t a, std::uint32_t b) { visit(a, b); });
-        else
-            each_between(second, first, [&](std::uint32_t b, std::uint32_t a) { visit(a, b); });
+        const Work all = work(pair);
+        for_each(all, 0, all.parts(), visit);
     }
 
   private:
@@ -56,12 +86,6 @@ class NearFacets {
         int axis;     ///< the dominant one of its plane
         double turn;  ///< how it turns seen along that, 1 or -1
     };
-    /// The triangles of a facet that is in a pair.
-    struct Group {
-        std::uint32_t facet, begin, end, tree;
-        std::uint32_t size() const { return end - begin; }
-    };
-
     bool may_meet(const Shape& a, const Shape& b) const {
         return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
                a.low.z <= b.high.z && b.low.z <= a.high.z && !parts(a, b) && !parts(b, a);
@@ -75,8 +99,8 @@ class NearFacets {
                                  [](const Group& group, std::uint32_t of) { return group.facet < of; });
     }
     template <class Visit>
-    void each_within(const Group& group, const Visit& visit) const {
-        for (std::uint32_t i = group.begin; i < group.end; ++i) {
+    void each_within(const Group& group, std::uint32_t begin, std::uint32_t end, const Visit& visit) const {
+        for (std::uint32_t i = group.begin + begin; i < group.begin + end; ++i) {
             if (group.tree != no_index) {
                 trees_[group.tree].for_each_meeting(shapes_[i].low, shapes_[i].high, [&](std::uint32_t k) {
                     if (k > i && may_meet(shapes_[i], shapes_[k])) visit(triangles_[i], triangles_[k]);
@@ -89,8 +113,9 @@ class NearFacets {
     }
     /// The first is the larger one.
     template <class Visit>
-    void each_between(const Group& first, const Group& second, const Visit& visit) const {
-        for (std::uint32_t k = second.begin; k < second.end; ++k) {
+    void each_between(const Group& first, const Group& second, std::uint32_t begin, std::uint32_t end,
+                      const Visit& visit) const {
+        for (std::uint32_t k = second.begin + begin; k < second.begin + end; ++k) {
             if (first.tree != no_index) {
                 trees_[first.tree].for_each_meeting(shapes_[k].low, shapes_[k].high, [&](std::uint32_t i) {
                     if (may_meet(shapes_[i], shapes_[k])) visit(triangles_[i], triangles_[k]);

@@ -143,18 +143,39 @@ class FaultSearch {
     RoundingFaults all(const Context& context) const {
         RoundingFaults faults;
         faults.inverted = find_inverted(surface_, soup_, rounded_, context);
-        constexpr std::size_t grain = 256;
-        std::vector<std::vector<Crossing>> found(near_.pairs().size() / grain + 1);
+        // A pair of two fans of slivers may be a third of the work: those of many parts are dealt out afterwards.
+        struct Part {
+            NearFacets::Work work;
+            std::uint32_t begin, end;
+        };
+        constexpr std::uint32_t at_once = 32;
+        constexpr std::size_t grain = 64;
+        const std::size_t chunks = near_.pairs().size() / grain + 1;
+        std::vector<std::vector<Crossing>> found(chunks);
+        std::vector<std::vector<Part>> later(chunks);
+        const auto search = [&](const Part& part, std::vector<Crossing>& crossing) {
+            near_.for_each(part.work, part.begin, part.end, [&](std::uint32_t a, std::uint32_t b) {
+                const auto is_bad = [&](std::uint32_t facet) {
+                    return std::binary_search(faults.inverted.begin(), faults.inverted.end(), facet);
+                };
+                if (!is_bad(a) && !is_bad(b) && crosses(a, b)) crossing.push_back(std::minmax(a, b));
+            });
+        };
         parallel_chunks(context, near_.pairs().size(), grain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                near_.for_each(near_.pairs()[i], [&](std::uint32_t a, std::uint32_t b) {
-                    const auto is_bad = [&](std::uint32_t facet) {
-                        return std::binary_search(faults.inverted.begin(), faults.inverted.end(), facet);
-                    };
-                    if (!is_bad(a) && !is_bad(b) && crosses(a, b))
-                        found[begin / grain].push_back(std::minmax(a, b));
-                });
+            for (std::size_t i = begin; i < end; ++i) {
+                const NearFacets::Work work = near_.work(near_.pairs()[i]);
+                if (work.parts() <= at_once)
+                    search({work, 0, work.parts()}, found[begin / grain]);
+                else
+                    for (std::uint32_t part = 0; part < work.parts(); part += at_once)
+                        later[begin / grain].push_back({work, part, std::min(part + at_once, work.parts())});
+            }
         });
+        std::vector<Part> large;
+        for (const auto& part : later) large.insert(large.end(), part.begin(), part.end());
+        found.resize(chunks + large.size());
+        parallel_chunks(context, large.size(), 1,
+                        [&](std::size_t i, std::size_t) { search(large[i], found[chunks + i]); });
         for (const auto& part : found)
             faults.crossing.insert(faults.crossing.end(), part.begin(), part.end());
         std::sort(faults.crossing.begin(), faults.crossing.end());
