@@ -14,7 +14,7 @@ int likely_sign(const std::array<std::array<double, 4>, 3>& m) {
     double largest = 0, sum = 0, absolute = 0;
     for (const auto& row : m)
         for (std::size_t column = 0; column < 3; ++column)
-            largest = std::fmax(largest, std::fabs(row[column]));
+            if (const double size = std::fabs(row[column]); size > largest) largest = size;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
         const double right = m[0][i] * m[1][j] * m[2][k], left = m[0][i] * m[1][k] * m[2][j];

@@ -51,11 +51,11 @@ namespace {
 
 /// The facets of a leaf in place, or what keeps it from having any.
 Result<mesh::Mesh> facets_of(const csg::PlacedPrimitive& leaf, std::size_t number) {
-    if (const auto* polyhedron = std::get_if<csg::Polyhedron>(&leaf.primitive)) {
+    if (const auto* polyhedron = std::get_if<csg::Polyhedron>(leaf.primitive)) {
         if (!polyhedron->mesh) return mesh::Mesh{};
         return mesh::transform(*polyhedron->mesh, leaf.place);
     }
-    if (const auto* cuboid = std::get_if<csg::Cuboid>(&leaf.primitive))
+    if (const auto* cuboid = std::get_if<csg::Cuboid>(leaf.primitive))
         return mesh::transform(csg::cuboid_mesh(cuboid->low, cuboid->high), leaf.place);
     return Error{ErrorCode::unsupported,
                  "leaf " + std::to_string(number) + " of the expression is no polyhedron; facet it first",

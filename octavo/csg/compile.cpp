@@ -15,7 +15,7 @@ namespace {
 Box3 polyhedra_bounds(const NormalForm& form, const FormBounds& bounds) {
     Box3 box;
     for (std::size_t i = 0; i < form.leaves.size(); ++i) {
-        const auto* polyhedron = std::get_if<Polyhedron>(&form.leaves[i].primitive);
+        const auto* polyhedron = std::get_if<Polyhedron>(form.leaves[i].primitive);
         if (polyhedron && polyhedron->convexity == Convexity::any) box.add(bounds.leaves[i]);
     }
     return box;
@@ -144,7 +144,7 @@ void reserve(const NormalForm& form, Program& program) {
     std::size_t leaves = 0;
     for (const NormalToken& token : form.tokens) {
         if (token.kind != NormalKind::leaf) continue;
-        const Primitive& primitive = form.leaves[token.leaf].primitive;
+        const Primitive& primitive = *form.leaves[token.leaf].primitive;
         ++leaves;
         if (std::holds_alternative<Cuboid>(primitive)) planes += 6;
         if (std::holds_alternative<HalfSpace>(primitive)) planes += 1;

@@ -86,7 +86,7 @@ class LeafCompiler::Primitives {
   public:
     using Compiled = CompiledLeaf;
 
-    explicit Primitives(Program& program) : program_(program) {}
+    explicit Primitives(Program& program) : program_(program), units_(1 / program.lattice.unit()) {}
 
     Result<Compiled> compile(const PlacedPrimitive& placed, const Box3& bounds) {
         bounds_ = bounds;
@@ -94,7 +94,7 @@ class LeafCompiler::Primitives {
             !(is_finite(to_lattice(bounds.low)) && is_finite(to_lattice(bounds.high))))
             return too_far();
         return std::visit([&](const auto& primitive) { return put(primitive, placed.place); },
-                          placed.primitive);
+                          *placed.primitive);
     }
 
   private:
@@ -108,8 +108,8 @@ class LeafCompiler::Primitives {
         const exact::Lattice& lattice = program_.lattice;
         Vec3 p;
         for (int axis = 0; axis < 3; ++axis)
-            p[axis] = world[axis] / lattice.unit() -
-                      static_cast<double>(lattice.origin()[static_cast<std::size_t>(axis)]);
+            p[axis] =
+                world[axis] * units_ - static_cast<double>(lattice.origin()[static_cast<std::size_t>(axis)]);
         return p;
     }
 
@@ -383,6 +383,7 @@ class LeafCompiler::Primitives {
     }
 
     Program& program_;
+    double units_;  // in a length of one; a power of two
     std::map<std::pair<const mesh::Mesh*, std::array<std::array<double, 4>, 3>>, Compiled> meshes_;
     std::unordered_multimap<std::uint64_t, std::uint32_t>
         bodies_;   // convex polyhedra, by the hash of their planes

@@ -35,9 +35,9 @@ struct FlatLeaf {
 
 std::optional<FlatLeaf> flat_leaf(const PlacedPrimitive& leaf, std::size_t most_facets) {
     FlatLeaf flat;
-    if (const auto* cuboid = std::get_if<Cuboid>(&leaf.primitive)) {
+    if (const auto* cuboid = std::get_if<Cuboid>(leaf.primitive)) {
         flat.mesh = placed(cuboid_mesh(cuboid->low, cuboid->high), leaf.place);
-    } else if (const auto* polyhedron = std::get_if<Polyhedron>(&leaf.primitive)) {
+    } else if (const auto* polyhedron = std::get_if<Polyhedron>(leaf.primitive)) {
         flat.mesh = placed(*polyhedron->mesh, leaf.place);
         flat.convex = polyhedron->convexity == Convexity::convex;
     } else {
@@ -286,8 +286,8 @@ Result<std::vector<Vec3>> corners_of(const Expr& expression, const Context& cont
     std::vector<Vec3> corners;
     if (only_unions(*form)) {
         for (const PlacedPrimitive& leaf : form->leaves) {
-            const auto* cuboid = std::get_if<Cuboid>(&leaf.primitive);
-            const auto* polyhedron = std::get_if<Polyhedron>(&leaf.primitive);
+            const auto* cuboid = std::get_if<Cuboid>(leaf.primitive);
+            const auto* polyhedron = std::get_if<Polyhedron>(leaf.primitive);
             if (!cuboid && !polyhedron) return unsupported("the hull of a curved primitive");
             const mesh::Mesh mesh =
                 placed(cuboid ? cuboid_mesh(cuboid->low, cuboid->high) : *polyhedron->mesh, leaf.place);

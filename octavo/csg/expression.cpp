@@ -6,31 +6,21 @@
 
 namespace octavo::csg {
 
-struct Expr::Node {
-    Operation operation = Operation::union_of;
-    Primitive primitive = Everything{};
-    Affine map;
-    std::vector<Expr> operands;
-
-    Node() = default;
-    Node(const Node&) = delete;
-    Node& operator=(const Node&) = delete;
-    ~Node() {
-        // Nodes that only this one holds are taken apart here, one after the other: a deep tree would otherwise
-        // be destroyed by recursion and overrun the stack.
-        std::vector<Expr> doomed = std::move(operands);
-        while (!doomed.empty()) {
-            const Expr expr = std::move(doomed.back());
-            doomed.pop_back();
-            if (expr.node_ && expr.node_.use_count() == 1) {
-                // The last holder may take the operands of a node that is const to everybody else.
-                std::vector<Expr>& below = const_cast<Node&>(*expr.node_).operands;
-                for (Expr& operand : below) doomed.push_back(std::move(operand));
-                below.clear();
-            }
+Expr::Node::~Node() {
+    // Nodes that only this one holds are taken apart here, one after the other: a deep tree would otherwise be
+    // destroyed by recursion and overrun the stack.
+    std::vector<Expr> doomed = std::move(operands);
+    while (!doomed.empty()) {
+        const Expr expr = std::move(doomed.back());
+        doomed.pop_back();
+        if (expr.node_ && expr.node_.use_count() == 1) {
+            // The last holder may take the operands of a node that is const to everybody else.
+            std::vector<Expr>& below = const_cast<Node&>(*expr.node_).operands;
+            for (Expr& operand : below) doomed.push_back(std::move(operand));
+            below.clear();
         }
     }
-};
+}
 
 namespace {
 
@@ -49,20 +39,6 @@ Expr::Expr(Primitive primitive) {
     node->primitive = std::move(primitive);
     node_ = std::move(node);
 }
-
-Operation Expr::operation() const { return node_->operation; }
-
-const Primitive& Expr::primitive() const {
-    OCTAVO_CHECK(node_->operation == Operation::primitive, "only a leaf has a primitive");
-    return node_->primitive;
-}
-
-const Affine& Expr::map() const {
-    OCTAVO_CHECK(node_->operation == Operation::transform, "only a transform has a map");
-    return node_->map;
-}
-
-const std::vector<Expr>& Expr::operands() const { return node_->operands; }
 
 Expr combine(Operation operation, std::vector<Expr> operands) {
     OCTAVO_CHECK(operation != Operation::primitive && operation != Operation::transform,

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include <octavo/base/check.hpp>
 #include <octavo/csg/primitive.hpp>
 
 // A CSG expression: primitives, affine maps and n-ary set operations.
@@ -34,12 +35,12 @@ class Expr {
     Expr();
     Expr(Primitive primitive);
 
-    Operation operation() const;
+    inline Operation operation() const;
     /// Of a leaf.
-    const Primitive& primitive() const;
+    inline const Primitive& primitive() const;
     /// Of a transform.
-    const Affine& map() const;
-    const std::vector<Expr>& operands() const;
+    inline const Affine& map() const;
+    inline const std::vector<Expr>& operands() const;
     /// Equal for handles of one node.
     const void* identity() const { return node_.get(); }
 
@@ -50,6 +51,30 @@ class Expr {
 
     std::shared_ptr<const Node> node_;
 };
+
+struct Expr::Node {
+    Operation operation = Operation::union_of;
+    Primitive primitive = Everything{};
+    Affine map;
+    std::vector<Expr> operands;
+
+    Node() = default;
+    Node(const Node&) = delete;
+    Node& operator=(const Node&) = delete;
+    ~Node();
+};
+
+// Here, since a walk asks them of every node.
+inline Operation Expr::operation() const { return node_->operation; }
+inline const Primitive& Expr::primitive() const {
+    OCTAVO_CHECK(node_->operation == Operation::primitive, "only a leaf has a primitive");
+    return node_->primitive;
+}
+inline const Affine& Expr::map() const {
+    OCTAVO_CHECK(node_->operation == Operation::transform, "only a transform has a map");
+    return node_->map;
+}
+inline const std::vector<Expr>& Expr::operands() const { return node_->operands; }
 
 /// Any set operation; `complement` takes exactly one operand.
 Expr combine(Operation operation, std::vector<Expr> operands);

@@ -106,17 +106,18 @@ FormBounds form_bounds(const NormalForm& form) {
     FormBounds result;
     result.leaves.reserve(form.leaves.size());
     for (const PlacedPrimitive& leaf : form.leaves)
-        result.leaves.push_back(bounds(leaf.primitive, leaf.place));
+        result.leaves.push_back(bounds(*leaf.primitive, leaf.place));
     result.tokens.resize(form.tokens.size());
     // Backwards, so that the operands of an operation are known when it is reached.
     for (std::size_t index = form.tokens.size(); index-- > 0;) {
         const NormalToken& token = form.tokens[index];
-        if (token.kind == NormalKind::leaf)
-            result.tokens[index] = {result.leaves[token.leaf], token.complemented};
-        else if (token.kind == NormalKind::constant)
-            result.tokens[index] = {{}, token.complemented};
-        else
-            result.tokens[index] = bounds_of_operation(form, result.tokens, index);
+        Token& bounds = result.tokens[index];
+        if (token.kind == NormalKind::leaf || token.kind == NormalKind::constant) {
+            bounds.full_outside = token.complemented;
+            if (token.kind == NormalKind::leaf) bounds.box = result.leaves[token.leaf];
+        } else {
+            bounds = bounds_of_operation(form, result.tokens, index);
+        }
     }
     return result;
 }

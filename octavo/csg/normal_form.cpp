@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,10 +16,11 @@ Error limit_error(std::uint64_t leaves) {
 }
 
 bool is_finite(const Affine& map) {
+    // No branches: twelve differences, of which one that is not finite makes the sum no number.
+    double sum = 0;
     for (const auto& row : map.m)
-        for (const double entry : row)
-            if (!std::isfinite(entry)) return false;
-    return true;
+        for (const double entry : row) sum += entry - entry;
+    return sum == 0;
 }
 
 /// Walks the expression with a stack of its own and writes tokens in the opposite of prefix order, operands
@@ -28,7 +30,7 @@ class Normaliser {
     explicit Normaliser(const NormalFormOptions& options) : options_(options) {}
 
     Result<NormalForm> run(const Expr& expression) {
-        open(expression, {}, false);
+        open(expression, nullptr, false);
         while (!frames_.empty() && !error_) {
             Frame& frame = frames_.back();
             if (frame.next == 0 || frame.decided) {
@@ -43,13 +45,15 @@ class Normaliser {
         if (error_) return std::move(*error_);
         if (form_.tokens.empty()) form_.tokens.push_back({NormalKind::constant, constant_, 1, 0});
         std::reverse(form_.tokens.begin(), form_.tokens.end());
+        form_.expression = expression;
         return std::move(form_);
     }
 
   private:
     struct Frame {
         NormalKind kind;
-        Affine place;
+        const Affine*
+            place;  // none where nothing has moved it; of the expression, or the last of `composed_`
         const std::vector<Expr>* operands;
         std::size_t next;         // operands not yet visited
         std::size_t begin;        // where its tokens begin
@@ -60,11 +64,14 @@ class Normaliser {
         bool flipped = false;     // of a symmetric difference
         bool melted = false;      // its operands belong to the frame below, which is of the same kind
         bool decided = false;     // the rest does not matter
+        bool composed = false;    // its place is in `composed_`
     };
 
-    void open(const Expr& start, Affine place, bool negated) {
-        // Chains of maps and complements need no frame.
+    void open(const Expr& start, const Affine* place, bool negated) {
+        // Chains of maps and complements need no frame. A place is copied where it stays only: the machine waits for
+        // numbers that were just written one by one and are then copied several at a time.
         const Expr* expr = &start;
+        Affine composed;
         for (;;) {
             if (expr->operation() == Operation::transform) {
                 if (!is_finite(expr->map())) {
@@ -72,13 +79,18 @@ class Normaliser {
                         ErrorCode::bad_input, "a transformation matrix has an entry that is not finite", {}};
                     return;
                 }
-                place = compose(place, expr->map());
-                if (!is_finite(place)) {
+                if (place) {
+                    composed = compose(*place, expr->map());
+                    place = &composed;
+                } else {
+                    place = &expr->map();
+                }
+                if (!is_finite(*place)) {
                     error_ = Error{
                         ErrorCode::limit, "transformations together go beyond what a double can hold", {}};
                     return;
                 }
-                if (is_singular(place)) return add_constant(negated);
+                if (is_singular(*place)) return add_constant(negated);
             } else if (expr->operation() == Operation::complement) {
                 negated = !negated;
             } else {
@@ -87,14 +99,13 @@ class Normaliser {
             expr = &expr->operands().front();
         }
         if (expr->operation() == Operation::primitive)
-            add_leaf(expr->primitive(), place, negated);
+            add_leaf(expr->primitive(), place ? *place : composed, negated);
         else
-            open_operation(*expr, place, negated);
+            open_operation(*expr, place, place == &composed, negated);
     }
 
-    void open_operation(const Expr& expr, const Affine& place, bool negated) {
+    void open_operation(const Expr& expr, const Affine* place, bool composed, bool negated) {
         Frame frame{};
-        frame.place = place;
         frame.operands = &expr.operands();
         frame.next = expr.operands().size();
         frame.begin = form_.tokens.size();
@@ -120,6 +131,8 @@ class Normaliser {
             frame.flipped = false;
             if (frame.kind == NormalKind::symmetric_difference && negated) toggle();
         }
+        frame.composed = composed;
+        frame.place = composed ? &composed_.emplace_back(*place) : place;
         frames_.push_back(frame);
     }
 
@@ -135,7 +148,9 @@ class Normaliser {
             return;
         }
         const auto index = static_cast<std::uint32_t>(form_.leaves.size());
-        form_.leaves.emplace_back(primitive, place);
+        PlacedPrimitive& leaf = form_.leaves.emplace_back();
+        leaf.primitive = &primitive;
+        leaf.place = place;
         form_.tokens.push_back({NormalKind::leaf, negated, 1, index});
         if (!frames_.empty()) ++frames_.back().count;
     }
@@ -179,14 +194,14 @@ class Normaliser {
     void close() {
         const Frame frame = frames_.back();
         frames_.pop_back();
+        if (frame.composed) composed_.pop_back();
         if (frame.melted) {
             frames_.back().count += frame.count;
             return;
         }
         if (frame.decided) {
             form_.tokens.resize(frame.begin);
-            form_.leaves.erase(form_.leaves.begin() + static_cast<std::ptrdiff_t>(frame.first_leaf),
-                               form_.leaves.end());
+            form_.leaves.resize(frame.first_leaf);
             return add_constant(frame.kind == NormalKind::union_of);
         }
         if (frame.count == 0) return add_constant(frame.kind == NormalKind::intersection || frame.flipped);
@@ -248,6 +263,7 @@ class Normaliser {
     const NormalFormOptions& options_;
     NormalForm form_;
     std::vector<Frame> frames_;
+    std::deque<Affine> composed_;  // where they are they stay
     std::optional<Error> error_;
     bool constant_ = false;
 };

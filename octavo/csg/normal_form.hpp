@@ -36,8 +36,9 @@ struct NormalToken {
     friend bool operator==(const NormalToken&, const NormalToken&) = default;
 };
 
+/// A primitive of the expression, which it points into, and where it is.
 struct PlacedPrimitive {
-    Primitive primitive;
+    const Primitive* primitive;
     Affine place;
 };
 
@@ -45,6 +46,8 @@ struct NormalForm {
     std::vector<NormalToken> tokens;
     /// Each occurrence of a primitive in the expression that is still there.
     std::vector<PlacedPrimitive> leaves;
+    /// Keeps the primitives.
+    Expr expression;
 
     bool is_constant() const { return tokens.front().kind == NormalKind::constant; }
 };

@@ -21,7 +21,7 @@ Side side(const NormalForm& form, std::size_t& at, Vec3 p) {
     if (token.kind == NormalKind::constant) return token.complemented ? Side::inside : Side::outside;
     if (token.kind == NormalKind::leaf) {
         const PlacedPrimitive& leaf = form.leaves[token.leaf];
-        const Side s = tests::side(transform(leaf.place, Expr(leaf.primitive)), p, 1e-9);
+        const Side s = tests::side(transform(leaf.place, Expr(*leaf.primitive)), p, 1e-9);
         return token.complemented ? tests::flip(s) : s;
     }
     const std::size_t end = at - 1 + token.size;

@@ -241,7 +241,7 @@ TEST(OpenscadCsg, RoundThingsStayRoundUnlessFacetsAreAskedFor) {
         const Result<csg::NormalForm> form = csg::normal_form(read_or_die(text, options).expression);
         std::string result;
         for (const csg::PlacedPrimitive& leaf : form->leaves)
-            result += static_cast<char>('0' + leaf.primitive.index());
+            result += static_cast<char>('0' + leaf.primitive->index());
         std::sort(result.begin(), result.end());
         return result;
     };
