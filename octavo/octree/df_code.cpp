@@ -2,6 +2,10 @@
 #include <algorithm>
 #include <array>
 
+#ifdef __BMI2__
+#include <immintrin.h>
+#endif
+
 #include <octavo/octree/df_code.hpp>
 
 namespace octavo::octree {
@@ -9,12 +13,48 @@ namespace {
 
 /// The bits of a number with a zero after each.
 std::uint64_t two_apart(std::uint64_t bits) {
+#ifdef __BMI2__
+    return _pdep_u64(bits, 0x5555555555555555);
+#else
     bits &= 0xFFFFFFFF;
     bits = (bits | bits << 16) & 0x0000FFFF0000FFFF;
     bits = (bits | bits << 8) & 0x00FF00FF00FF00FF;
     bits = (bits | bits << 4) & 0x0F0F0F0F0F0F0F0F;
     bits = (bits | bits << 2) & 0x3333333333333333;
     return (bits | bits << 1) & 0x5555555555555555;
+#endif
+}
+
+struct Nodes {
+    std::uint64_t bits;
+    std::size_t count;
+};
+
+/// Octants of which the leaves are given, 16 bits each: the colour that all eight have, or a split node and the eight.
+/// Which are of one colour changes from cell to cell, so no branch asks.
+template <unsigned octants>
+Nodes up_to_three_octants(std::uint64_t leaves) {
+#ifdef __BMI2__
+    // All with their eight leaves first, 18 bits each, from which those of octants of one colour are then taken out.
+    constexpr std::uint64_t lanes = 0x000100010001 >> (octants == 2 ? 16 : 0), tops = lanes << 15,
+                            fields = octants == 2 ? 1 | 1ULL << 18 : 1 | 1ULL << 18 | 1ULL << 36;
+    const auto nonzero = [](std::uint64_t v) { return ((v & (tops - lanes)) + (tops - lanes)) | v; };
+    const std::uint64_t split = _pext_u64(nonzero(leaves) & nonzero(leaves ^ 0x555555555555), tops),
+                        black = _pext_u64(leaves, lanes) & ~split, split_fields = _pdep_u64(split, fields);
+    const std::uint64_t nodes =
+        _pdep_u64(leaves, 0xFFFF * 4 * fields) | _pdep_u64(black, fields) | 3 * split_fields;
+    return {_pext_u64(nodes, 3 * fields | 0xFFFF * 4 * split_fields),
+            octants + 8 * static_cast<std::size_t>(std::popcount(split))};
+#else
+    Nodes nodes{0, 0};
+    for (unsigned octant = 0; octant < octants; ++octant) {
+        const std::uint64_t eight = leaves >> (16 * octant) & 0xFFFF;
+        const std::uint64_t is_one = (eight == 0) | (eight == 0x5555), split = 3U | eight << 2;
+        nodes.bits |= (split ^ ((split ^ (eight & 1)) & (0 - is_one))) << (2 * nodes.count);
+        nodes.count += 9 - 8 * is_one;
+    }
+    return nodes;
+#endif
 }
 
 }  // namespace
@@ -53,26 +93,18 @@ Node DfCode::append(const GrandchildColors& colors) {
         to[1] |= nodes >> 1 >> (63 - shift);
         end += count;
     };
-    std::uint64_t nodes = static_cast<std::uint64_t>(Node::split);
-    std::size_t count = 1;
+    write(static_cast<std::uint64_t>(Node::split), 1);
     // The leaves of four octants each.
     const std::uint64_t gray = ~(colors.white | colors.black);
-    const std::array<std::uint64_t, 2> leaves{two_apart(colors.black) | two_apart(gray) << 1,
-                                              two_apart(colors.black >> 32) | two_apart(gray >> 32) << 1};
-#pragma GCC unroll 8
-    for (unsigned octant = 0; octant < 8; ++octant) {
-        // Which octants are of one colour changes from cell to cell, so no branch asks.
-        const std::uint64_t eight = leaves[octant / 4] >> (16 * (octant % 4)) & 0xFFFF;
-        const std::uint64_t is_one = (eight == 0) | (eight == 0x5555), split = 3U | eight << 2;
-        nodes |= (split ^ ((split ^ (eight & 1)) & (0 - is_one))) << (2 * count);
-        count += 9 - 8 * is_one;
-        // Three octants are at most 27 nodes, and with the first 28.
-        if (octant % 3 == 2 || octant == 7) {
-            write(nodes, count);
-            nodes = 0;
-            count = 0;
-        }
+    const std::uint64_t first = two_apart(colors.black) | two_apart(gray) << 1,
+                        second = two_apart(colors.black >> 32) | two_apart(gray >> 32) << 1;
+    // Three octants are at most 27 nodes.
+    for (const std::uint64_t leaves : {first, first >> 48 | second << 16}) {
+        const Nodes nodes = up_to_three_octants<3>(leaves);
+        write(nodes.bits, nodes.count);
     }
+    const Nodes nodes = up_to_three_octants<2>(second >> 32);
+    write(nodes.bits, nodes.count);
     if (used != 0) words_.back() = words[0];
     for (std::size_t i = used != 0; nodes_per_word * i < end; ++i) words_.push_back(words[i]);
     size_ += end - used;
