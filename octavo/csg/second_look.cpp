@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <octavo/csg/pair_in_cell.hpp>
 #include <octavo/csg/second_look.hpp>
 
 namespace octavo::csg {
@@ -20,6 +21,7 @@ bool is_exact(const Program& program, std::span<const std::uint32_t> words) {
 Color SecondLook::color(const Program& program, std::span<const std::uint32_t> words,
                         const octree::Cell& cell) {
     if (is_exact(program, words)) return Color::gray;
+    if (const std::optional<Color> color = color_of_pair(program, words, cell)) return *color;
     const Seen seen = below_.evaluate(program, words, cell);
     const bool black = seen.octants.black != 0 || seen.points.inside != 0;
     const bool white = seen.octants.white != 0 || seen.points.outside != 0;

@@ -11,8 +11,9 @@
 // that resist. In turn, each step for fewer cells than the one before:
 //
 //   1. two corners of the cell, strictly inside and strictly outside: evaluated with the colours, before this;
-//   2. the same, and colours, one level further down: 35 points and eight octants of the cell;
-//   3. the arrangement of all surfaces in the cell (local_arrangement.hpp).
+//   2. two surfaces by themselves (pair_in_cell.hpp);
+//   3. any, one level further down: 35 points and the colours of the eight octants of the cell;
+//   4. the arrangement of all surfaces in the cell (local_arrangement.hpp).
 
 namespace octavo::csg {
 
