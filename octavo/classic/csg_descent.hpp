@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <octavo/csg/brick.hpp>
+#include <octavo/csg/leaves_in_cells.hpp>
 #include <octavo/csg/second_look.hpp>
 #include <octavo/octree/descend.hpp>
 
@@ -18,8 +19,8 @@
 //
 // A description is a range of words in the buffer of some level: the program as pruned for the cell. A cell whose
 // program pruning would not change (one box, one quadric) lends it to its octants instead of copying. The program
-// of octant i is written while octants are split, all eight into the buffer of the next level. The last two levels are
-// coloured at once.
+// of octant i is written while octants are split, all eight into the buffer of the next level. The leaves of a large
+// expression are sorted into cells first (csg/leaves_in_cells.hpp). The last two levels are coloured at once.
 
 namespace octavo::classic {
 
@@ -33,9 +34,13 @@ struct CsgDescentOptions {
 
 class CsgDescent {
   public:
+    /// Words in a buffer; or, above the level to which leaves are sorted, cells of that level.
     struct Description {
         std::uint32_t begin = 0, size = 0;
         std::uint32_t buffer = 0;
+
+        static constexpr std::uint32_t sorted_cells = 0xFFFFFFFF;
+        bool is_sorted() const { return buffer == sorted_cells; }
     };
 
     struct Counters {
@@ -51,7 +56,7 @@ class CsgDescent {
             std::uint64_t bytes = 0;
             for (const auto& buffer : buffers) bytes += buffer.capacity() * sizeof(std::uint32_t);
             counters_->octants += octants;
-            counters_->tests += pruner.primitive_tests();
+            counters_->tests += pruner.primitive_tests() + placed;
             for (const csg::Brick& brick : bricks) counters_->tests += brick.primitive_tests();
             counters_->resolved += resolved;
             std::uint64_t most = counters_->program_bytes;
@@ -70,6 +75,7 @@ class CsgDescent {
         std::array<csg::Scratch<std::uint32_t>, octree::max_level + 2> buffers;
         csg::Scratch<std::uint32_t> cell_words;
         std::uint64_t octants = 0, resolved = 0;
+        std::uint64_t placed = 0;  // leaves in cells of the level to which they are sorted
 
       private:
         Counters* counters_;
@@ -96,21 +102,34 @@ class CsgDescent {
     /// `words` is the program's own list, or that of one of its sub-expressions; not empty.
     CsgDescent(const csg::Program& program, std::span<const std::uint32_t> words,
                const CsgDescentOptions& options, Counters& counters)
-        : program_(program), words_(words), options_(options), counters_(counters) {}
+        : program_(program),
+          words_(words),
+          options_(options),
+          counters_(counters),
+          // A brick needs words.
+          sorted_(csg::LeavesInCells::sort(program, words, options.depth - 2)) {
+        if (sorted_) counters_.program_bytes += sorted_->memory_bytes();
+    }
 
     int depth() const { return options_.depth; }
     Workspace make_workspace() const { return Workspace(&counters_); }
     Output make_output() const { return {}; }
 
     octree::Restricted<Description> root(Workspace& workspace) const {
+        if (sorted_)
+            return {octree::Node::split, {0, 1U << (3 * sorted_->level()), Description::sorted_cells}};
         put(words_, workspace.buffers[0]);
         return {octree::Node::split, {0, static_cast<std::uint32_t>(words_.size()), 0}};
     }
 
-    std::size_t weight(const Description& description) const { return description.size; }
+    std::size_t weight(const Description& description) const {
+        return description.is_sorted() ? sorted_->count(description.begin, description.size)
+                                       : description.size;
+    }
 
     Description transfer(const octree::Cell&, const Description& description, const Workspace& from,
                          Workspace& to) const {
+        if (description.is_sorted()) return description;
         const std::span<const std::uint32_t> words = from.words(description);
         put(words, to.buffers[description.buffer]);
         return {0, description.size, description.buffer};
@@ -119,6 +138,7 @@ class CsgDescent {
     void restrict_to_children(const octree::Cell& parent, const Description& description,
                               Workspace& workspace, octree::Children<Description>& children) const {
         workspace.octants += 8;
+        if (description.is_sorted()) return share_sorted(parent, description, workspace, children);
         const std::span<const std::uint32_t> words = workspace.words(description);
         csg::Pruner& pruner = workspace.pruner;
         if (parent.level + 1 == options_.depth)
@@ -207,6 +227,27 @@ class CsgDescent {
     }
 
   private:
+    /// Octants of a cell above the level to which leaves are sorted.
+    void share_sorted(const octree::Cell& parent, const Description& description, Workspace& workspace,
+                      octree::Children<Description>& children) const {
+        const auto buffer = static_cast<std::uint32_t>(parent.level + 1);
+        csg::Scratch<std::uint32_t>& words = workspace.buffers[buffer];
+        words.clear();
+        for (std::uint32_t i = 0; i < 8; ++i) {
+            octree::Restricted<Description>& child = children[i];
+            child.description = {description.begin + description.size / 8 * i, description.size / 8,
+                                 Description::sorted_cells};
+            const std::uint32_t count = sorted_->count(child.description.begin, child.description.size);
+            child.node = count == 0 ? octree::leaf_of(sorted_->color_without()) : octree::Node::split;
+            if (count == 0 || child.description.size > 1) continue;
+            workspace.placed += count;
+            const auto begin = static_cast<std::uint32_t>(words.size());
+            const octree::Color color = sorted_->write(child.description.begin, words);
+            if (is_decided(color)) child.node = octree::leaf_of(color);
+            child.description = {begin, static_cast<std::uint32_t>(words.size()) - begin, buffer};
+        }
+    }
+
     /// The cells of a brick that has been looked at, and whose bodies have been asked about.
     octree::GrandchildColors colors_of(csg::Brick& brick, const octree::Cell& cell,
                                        Workspace& workspace) const {
@@ -283,6 +324,7 @@ class CsgDescent {
     std::span<const std::uint32_t> words_;
     CsgDescentOptions options_;
     Counters& counters_;
+    std::optional<csg::LeavesInCells> sorted_;
 };
 
 }  // namespace octavo::classic

@@ -1,24 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include <octavo/csg/brick.hpp>
 #include <octavo/csg/classify.hpp>
 
 namespace octavo::csg {
+namespace {
+
+// Looking at bounds first pays where leaves are many.
+constexpr std::size_t many_words = 32;
+
+/// Where the operands of a program that is a union begin; past its end where it is none.
+std::uint32_t first_operand_of_union(std::span<const std::uint32_t> words) {
+    std::uint32_t at = 0;
+    while (!word::is_leaf(words[at]) && word::operation(words[at]) == word::skip) ++at;
+    const bool unites = !word::is_leaf(words[at]) && word::operation(words[at]) == word::union_of;
+    return unites ? at + 1 : static_cast<std::uint32_t>(words.size());
+}
+
+/// The cell of a brick that holds a lattice point.
+std::optional<BrickCell> cell_of(const std::array<std::int32_t, 3>& point, const octree::Cell& brick) {
+    if (!brick.contains({point[0], point[1], point[2]})) return {};
+    const int shift = std::countr_zero(static_cast<std::uint32_t>(brick.side())) - 2;
+    const auto quarters = [&](int axis) {
+        return static_cast<std::uint32_t>(point[static_cast<std::size_t>(axis)] - brick.low[axis]) >> shift;
+    };
+    return BrickCell{quarters(0), quarters(1), quarters(2)};
+}
+
+}  // namespace
 
 void Brick::look(const Program& program, std::span<const std::uint32_t> words, const octree::Cell& parent) {
     program_ = &program;
     words_ = words;
+    ++looks_;
     matters_.clear();
     windings_.clear();
     surfaces_.clear();
     nodes_.resize(words.size());
+    open_cells_ = Layers::cells();
+    if (words.size() >= many_words) open_cells_ = without(open_cells_, gray_by_bounds(parent));
     const auto see = [&](std::uint32_t at, const Layers& needed) {
         Node& node = nodes_[at];
         node.matters = static_cast<std::uint32_t>(matters_.size());
         node.windings = static_cast<std::uint32_t>(windings_.size());
         node.surfaces = static_cast<std::uint32_t>(surfaces_.size());
         node.surface_count = 0;
+        node.look = looks_;
         node.needed = needed;
         node.body = {};
         CornersSeen seen =
@@ -29,10 +59,64 @@ void Brick::look(const Program& program, std::span<const std::uint32_t> words, c
         return seen;
     };
     const auto note = [&](std::uint32_t at, const CornersSeen& seen) { nodes_[at].cells = seen.cells; };
-    const CornersSeen seen = fold_words<CornersSeen>(words, Layers::cells(), open_, see, note);
+    if (!open_cells_.any()) {
+        colors_ = {};
+        return;
+    }
+    const CornersSeen seen = fold_words<CornersSeen>(words, open_cells_, open_, see, note);
     reached_by_corners_ = seen.reached();
-    colors_ = {seen.cells, without(neither(seen.cells, Layers::cells()),
-                                   reached_by_corners_.out & reached_by_corners_.in)};
+    give(seen.cells, reached_by_corners_);
+}
+
+/// Cells that have been shown to be gray stay so: of them leaves were perhaps not looked at.
+void Brick::give(const LayerPair& cells, const LayerPair& reached) {
+    colors_.cells = {cells.out & open_cells_, cells.in & open_cells_};
+    colors_.unproved = without(neither(colors_.cells, open_cells_), reached.out & reached.in);
+}
+
+/// Cells in which a point of a leaf lies and a corner, or a part, is out of all boxes: most of those at the bottom of
+/// a scene of bodies smaller than they are, where each would else be looked at for six leaves.
+Layers Brick::gray_by_bounds(const octree::Cell& parent) {
+    // Of a union one point is enough.
+    Layers entered;
+    std::uint32_t operand = first_operand_of_union(words_);
+    const auto see = [&](std::uint32_t at, const Layers&) {
+        const Leaf& leaf = program_->leaves[word::leaf(words_[at])];
+        // Words that were skipped have no size.
+        while (operand < at) operand += std::max(word::size(&words_[operand]), 1U);
+        const bool complemented = (words_[at] & word::complement_bit) != 0;
+        const BrickSides box = brick_sides_of_box(leaf, parent);
+        BoundsSeen seen{{{box.white, box.black}, box.corners},
+                        {{box.white, box.black}, {box.white, box.black}}};
+        if (leaf.kind == LeafKind::box) {
+            seen.reach.reached.in = without(Layers::cells(), box.white);
+        } else if (const std::optional<BrickCell> cell = cell_of(leaf.witness, parent);
+                   cell && leaf.kind == LeafKind::convex && !complemented && !cell->in(entered)) {
+            ++tests_;
+            if (holds_witness(leaf)) cell->add_to(seen.reach.reached.in);
+        }
+        if (operand == at && !complemented) entered = entered | seen.reach.reached.in;
+        return complemented ? complement(seen) : seen;
+    };
+    return fold_words<BoundsSeen>(words_, Layers::cells(), open_bounds_, see,
+                                  [](std::uint32_t, const BoundsSeen&) {})
+        .gray();
+}
+
+/// Whether the point at the middle of a convex body is strictly inside, as it is unless rounding put it elsewhere.
+bool Brick::holds_witness(const Leaf& leaf) const {
+    const auto& [x, y, z] = leaf.witness;
+    for (const std::uint32_t id : program_->constraints_of(leaf)) {
+        if (!ConstraintId::is_cone(id)) {
+            if (program_->planes[id].at(x, y, z) <= 0) return false;
+            continue;
+        }
+        const SecondOrderCone& cone = program_->cones[ConstraintId::index(id)];
+        const double dx = x - cone.origin[0], dy = y - cone.origin[1], dz = z - cone.origin[2],
+                     farthest = std::max({std::fabs(dx), std::fabs(dy), std::fabs(dz)});
+        if (!(cone.excess(dx, dy, dz) < -cone.error(farthest))) return false;
+    }
+    return true;
 }
 
 void Brick::ask(BodiesInCells& bodies) {
@@ -41,7 +125,7 @@ void Brick::ask(BodiesInCells& bodies) {
          at += word::is_leaf(words_[at]) ? word::size(&words_[at]) : 1) {
         if (!word::is_leaf(words_[at])) continue;
         Node& node = nodes_[at];
-        if (node.surface_count == 0) continue;
+        if (node.look != looks_ || node.surface_count == 0) continue;
         // Where no corner lies in the body.
         const Layers asked =
             without(without(colors_.unproved & node.needed, node.seen.cells.out), node.seen.reached().in);
@@ -65,10 +149,8 @@ const Brick::Colors& Brick::settle() {
         return seen;
     };
     const auto note = [&](std::uint32_t at, const ReachSeen& seen) { nodes_[at].cells = seen.cells; };
-    const ReachSeen seen = fold_words<ReachSeen>(words_, Layers::cells(), open_again_, see, note);
-    colors_ = {seen.cells,
-               without(neither(seen.cells, Layers::cells()), (reached_by_corners_.out | seen.reached.out) &
-                                                                 (reached_by_corners_.in | seen.reached.in))};
+    const ReachSeen seen = fold_words<ReachSeen>(words_, open_cells_, open_again_, see, note);
+    give(seen.cells, {reached_by_corners_.out | seen.reached.out, reached_by_corners_.in | seen.reached.in});
     return colors_;
 }
 

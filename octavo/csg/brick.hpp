@@ -59,8 +59,12 @@ class Brick {
         BodyInCells body;
         std::uint32_t matters, windings;  // where its part begins
         std::uint32_t surfaces, surface_count;
+        std::uint64_t look;  // the last in which it was looked at
     };
 
+    void give(const LayerPair& cells, const LayerPair& reached);
+    Layers gray_by_bounds(const octree::Cell& parent);
+    bool holds_witness(const Leaf& leaf) const;
     CornersSeen look_at(const Leaf& leaf, Payload payload, const octree::Cell& parent, Node& node);
     CornersSeen look_at_convex(std::span<const std::uint32_t> constraints, const octree::Cell& parent,
                                const BrickSides& box, Node& node);
@@ -72,8 +76,10 @@ class Brick {
     const Program* program_ = nullptr;
     std::span<const std::uint32_t> words_;
     Colors colors_;
+    Layers open_cells_;  // that boxes have not shown to be gray
     LayerPair reached_by_corners_;
     Scratch<Node> nodes_;
+    std::vector<OpenOperation<BoundsSeen>> open_bounds_;
     std::vector<OpenOperation<CornersSeen>> open_;
     std::vector<OpenOperation<ReachSeen>> open_again_;
     std::vector<WrittenOperation> written_;
@@ -81,7 +87,7 @@ class Brick {
     Scratch<std::int32_t> windings_;  // 64 for each polyhedron
     Scratch<BrickSurface> surfaces_;  // of convex leaves, as many as items
     std::vector<std::uint32_t> all_, met_;
-    std::uint64_t tests_ = 0;
+    std::uint64_t tests_ = 0, looks_ = 0;
 };
 
 }  // namespace octavo::csg

@@ -99,4 +99,39 @@ inline ReachSeen symmetric_difference(const ReachSeen& a, const ReachSeen& b) {
     return {symmetric_difference(a.cells, b.cells), {of_a.out | of_b.out, of_a.in | of_b.in}};
 }
 
+/// Both at once, of the bounding boxes of leaves and a point of each: what is seen before a leaf is looked at.
+struct BoundsSeen {
+    using Cells = Layers;
+
+    CornersSeen corners;
+    ReachSeen reach;
+
+    static constexpr BoundsSeen none() { return {CornersSeen::none(), ReachSeen::none()}; }
+    static constexpr BoundsSeen all() { return {CornersSeen::all(), ReachSeen::all()}; }
+
+    static bool any(const Cells& cells) { return cells.any(); }
+    Cells unsettled(word::Operation operation, const Cells& needed) const {
+        return corners.unsettled(operation, needed);
+    }
+    void forget_points(word::Operation operation) {
+        corners.forget_points(operation);
+        reach.forget_points(operation);
+    }
+    /// Cells with some point outside and some point inside.
+    Layers gray() const {
+        const LayerPair by_corners = corners.reached();
+        return (by_corners.out | reach.reached.out) & (by_corners.in | reach.reached.in);
+    }
+};
+inline BoundsSeen complement(const BoundsSeen& a) { return {complement(a.corners), complement(a.reach)}; }
+inline BoundsSeen unite(const BoundsSeen& a, const BoundsSeen& b) {
+    return {unite(a.corners, b.corners), unite(a.reach, b.reach)};
+}
+inline BoundsSeen intersect(const BoundsSeen& a, const BoundsSeen& b) {
+    return {intersect(a.corners, b.corners), intersect(a.reach, b.reach)};
+}
+inline BoundsSeen symmetric_difference(const BoundsSeen& a, const BoundsSeen& b) {
+    return {symmetric_difference(a.corners, b.corners), symmetric_difference(a.reach, b.reach)};
+}
+
 }  // namespace octavo::csg

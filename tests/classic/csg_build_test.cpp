@@ -100,6 +100,55 @@ TEST(CsgBuild, PruningIsThreeValuedLogicOnTheOctreesOfThePrimitives) {
     }
 }
 
+// Their leaves are sorted into cells, and bricks look at bounding boxes first.
+TEST(CsgBuild, ThousandsOfSmallPrimitivesGiveTheSameTree) {
+    RandomSolids random(4);
+    const auto small = [&](double size) {
+        Affine map = random.map();
+        for (auto& row : map.m) {
+            for (std::size_t c = 0; c < 3; ++c) row[c] *= size;
+            row[3] = random.uniform(-4.9, 4.9);
+        }
+        const int kind = random.below(4);
+        return csg::transform(map, kind == 0   ? Expr(csg::Ball{1})
+                                   : kind == 1 ? Expr(csg::Cuboid{{-1, -1, -1}, {1, 1, 1}})
+                                   : kind == 2 ? Expr(csg::Torus{1, 0.3})
+                                               : Expr(csg::Frustum{-1, 1, 0.2, 1}));
+    };
+    for (int round = 0; round < 6; ++round) {
+        std::vector<Expr> operands;
+        for (int i = 0; i < 2400; ++i) {
+            const Expr a = small(0.1), b = small(0.3);
+            const int pick = random.below(5);
+            operands.push_back(pick == 0   ? csg::subtract({a, b})
+                               : pick == 1 ? csg::intersect({csg::unite({a, small(0.1)}), b})
+                               : pick == 2 ? csg::subtract({b, csg::intersect({a, csg::unite({a, b})})})
+                                           : a);
+        }
+        const Expr all = csg::unite(operands), plate(csg::Cuboid{{-4, -4, -0.5}, {4, 4, 0.5}});
+        const Expr expression = round % 3 == 0   ? all
+                                : round % 3 == 1 ? csg::subtract({plate, all})
+                                                 : csg::complement(all);
+        csg::CompileOptions compile_options;
+        compile_options.universe = Box3{{-5, -5, -5}, {5, 5, 5}};
+        compile_options.primitives = csg::CompileOptions::Primitives::all;
+        const Result<csg::Program> program = csg::compile(expression, compile_options);
+        ASSERT_TRUE(program);
+        const int depth = 5 + round / 3;
+        EXPECT_TRUE(csg::LeavesInCells::sort(*program, program->words, depth - 2));
+        const Result<PrimitivewiseOctree> combined = build_by_primitive(*program, {.depth = depth}, {});
+        CsgDescent::Counters counters;
+        const CsgDescent problem(*program, program->words, {depth, CsgDescentOptions::LastLevel::keep_gray},
+                                 counters);
+        Result<CsgDescent::Output> pruned = octree::descend(problem);
+        ASSERT_TRUE(pruned);
+        EXPECT_EQ(pruned->take_code(), combined->code);
+        const CsgOctree top_down = build_or_die(expression, depth_of(depth));
+        EXPECT_EQ(top_down.octree, build_or_die(expression, depth_of(depth, CsgMethod::classic)).octree);
+        EXPECT_EQ(top_down.octree, build_or_die(expression, depth_of(depth), 4).octree);
+    }
+}
+
 TEST(CsgBuild, AnOctreeWithMoreNodesThanAllowedIsRefusedByBothMethods) {
     const Expr ball(csg::Ball{1});
     for (const CsgMethod method : {CsgMethod::top_down, CsgMethod::classic}) {
