@@ -5,7 +5,6 @@
 #include <atomic>
 #include <thread>
 #else
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -32,8 +31,8 @@ void run_tasks(std::size_t count, FunctionRef<void(std::size_t)> body) {
 
 void within_threads(const Context& context, FunctionRef<void()> body) {
     // More threads than the machine runs at a time are slower, and oneTBB warns of them on standard error. As many as
-    // it runs are there anyhow: an arena of their own would begin asleep.
-    if (context.threads == 0 || context.threads >= tbb::info::default_concurrency()) return body();
+    // it runs are there anyhow: an arena of their own would begin asleep. A loop within another one has its threads.
+    if (context.threads == 0 || context.threads >= tbb::this_task_arena::max_concurrency()) return body();
     tbb::task_arena arena(context.threads);
     arena.execute(body);
 }

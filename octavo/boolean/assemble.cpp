@@ -118,7 +118,7 @@ class VertexNumbering {
         for (const std::vector<Pair>& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
     }
 
-    /// Renames the corners of `mesh` and makes its vertices.
+    /// Makes the vertices of `mesh`, its triangles, and room for their sources.
     void run(const RoundedPoints& rounded, mesh::Mesh& mesh) {
         const std::vector<std::size_t> offset =
             chunk_offsets(context_, special_.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -126,7 +126,14 @@ class VertexNumbering {
                 for (std::size_t point = begin; point < end; ++point) count += vertices_at(point);
                 return count;
             });
-        mesh.vertices.resize(offset.back());
+        // Zeroing these and bringing in their pages is much of the phase: each on a thread.
+        const std::size_t triangles = surface_.triangles.size();
+        parallel_chunks(context_, 3, 1, [&](std::size_t task, std::size_t) {
+            if (task == 0) mesh.vertices.resize(offset.back());
+            if (task == 1) mesh.triangles.resize(triangles);
+            if (task == 2) mesh.sources.resize(triangles);
+        });
+        if (context_.cancelled()) return;
         vertex_of_point_.resize(special_.size());
         vertex_of_slot_.resize(corners_.corners.size());
         parallel_chunks(context_, special_.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -143,8 +150,7 @@ class VertexNumbering {
                     mesh.vertices[v] = rounded.world(static_cast<PointId>(point));
             }
         });
-        mesh.triangles.resize(surface_.triangles.size());
-        parallel_chunks(context_, mesh.triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+        parallel_chunks(context_, triangles, grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 for (std::uint32_t k = 0; k < 3; ++k)
                     mesh.triangles[i][k] =
@@ -158,7 +164,7 @@ class VertexNumbering {
     }
 
   private:
-    static constexpr std::size_t grain = 1 << 14;
+    static constexpr std::size_t grain = 1 << 12;
 
     /// Which points are used, and the corners at special ones. Threads mark points at the same time, all with the same.
     void gather() {
@@ -313,8 +319,7 @@ Assembled assemble(const Surface& surface, const Soup& soup, const PointTable& p
     if (context.cancelled()) return result;
     result.duplicated_vertices = result.mesh.vertices.size() - numbering.used_points();
 
-    result.mesh.sources.resize(surface.facets.size());
-    parallel_chunks(context, surface.facets.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    parallel_chunks(context, surface.facets.size(), 1 << 12, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             result.mesh.sources[i] = soup.source(surface.facets[i].soup_facet);
     });

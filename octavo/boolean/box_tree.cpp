@@ -14,7 +14,7 @@
 namespace octavo::boolean {
 namespace {
 
-constexpr std::size_t grain = 1 << 14;
+constexpr std::size_t grain = 1 << 12;
 
 using Keyed = BoxTree::Keyed;
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <bit>
 
-#include <octavo/base/parallel_sort.hpp>
+#include <octavo/base/parallel.hpp>
 #include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/coincident_facets.hpp>
 
@@ -44,7 +44,7 @@ Dealt deal_out(const Soup& soup, const Context& context) {
     const std::size_t count = soup.facets.size(),
                       ranges = std::clamp(soup.points.size() / points_a_range, std::size_t{1}, most_ranges),
                       range = soup.points.size() / ranges + 1;
-    const std::size_t chunk = std::max<std::size_t>(1 << 14, (count + 15) / 16),
+    const std::size_t chunk = std::max<std::size_t>(1 << 12, (count + 15) / 16),
                       chunks = (count + chunk - 1) / chunk;
     const auto range_of = [&](const mesh::Triangle& facet) {
         return std::min({facet[0], facet[1], facet[2]}) / range;
@@ -75,80 +75,100 @@ Dealt deal_out(const Soup& soup, const Context& context) {
 
 struct Coincidence {
     std::uint32_t first, facet;
-    friend auto operator<=>(const Coincidence&, const Coincidence&) = default;
+    bool turned;  ///< the facet is, seen from the first
+    bool operator<(const Coincidence& other) const {
+        return first != other.first ? first < other.first : facet < other.facet;
+    }
 };
 
-/// Those of some facets that have the corners of one before them.
-void find_repeated(const Soup& soup, std::span<const std::uint32_t> facets, std::vector<Coincidence>& found) {
+/// Those of some facets that have the corners of one before them; sorted.
+std::vector<Coincidence> find_repeated(const Soup& soup, std::span<const std::uint32_t> facets) {
     struct Slot {
         std::uint32_t facet, check;
     };
     std::vector<Slot> slots(std::bit_ceil(2 * facets.size() + 1), Slot{no_index, 0});
+    std::vector<Coincidence> found;
     const std::size_t mask = slots.size() - 1;
     for (const std::uint32_t facet : facets) {
         const std::uint64_t print = fingerprint(soup.facets[facet]);
         const auto check = static_cast<std::uint32_t>(print);
         std::size_t slot = (print >> 32) & mask;
         for (; slots[slot].facet != no_index; slot = (slot + 1) & mask) {
-            const Slot& known = slots[slot];
-            if (known.check != check ||
-                !sorted(soup.facets[known.facet]).same_corners(sorted(soup.facets[facet])))
-                continue;
-            found.push_back({known.facet, facet});
+            if (slots[slot].check != check) continue;
+            const SortedCorners known = sorted(soup.facets[slots[slot].facet]),
+                                here = sorted(soup.facets[facet]);
+            if (!known.same_corners(here)) continue;
+            found.push_back({slots[slot].facet, facet, known.odd != here.odd});
             break;
         }
         if (slots[slot].facet == no_index) slots[slot] = {facet, check};
     }
+    std::sort(found.begin(), found.end());
+    return found;
 }
 
-std::vector<Coincidence> find_coincident(const Soup& soup, const Context& context) {
-    const Dealt dealt = deal_out(soup, context);
-    const std::size_t ranges = dealt.begin.size() - 1;
-    std::vector<std::vector<Coincidence>> found(ranges);
-    parallel_chunks(context, ranges, 1, [&](std::size_t r, std::size_t) {
-        find_repeated(soup, {dealt.facets.data() + dealt.begin[r], dealt.begin[r + 1] - dealt.begin[r]},
-                      found[r]);
-    });
-    std::vector<Coincidence> all;
-    for (const std::vector<Coincidence>& part : found) all.insert(all.end(), part.begin(), part.end());
-    parallel_sort(context, all);
-    return all;
+/// What is to be added up where facets coincide.
+using Terms = std::vector<std::pair<TransitionId, int>>;
+
+/// The facets of a range that coincide.
+struct Merged {
+    std::vector<Coincidence> repeated;
+    std::vector<Terms> sums;  ///< neighbours mostly have the same
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        first;  ///< of those that coincide, and which of the sums
+};
+
+Merged merge_range(const Soup& soup, std::span<const std::uint32_t> facets) {
+    Merged merged{find_repeated(soup, facets), {}, {}};
+    const std::vector<Coincidence>& repeated = merged.repeated;
+    Terms terms;
+    for (std::size_t i = 0, end; i < repeated.size(); i = end) {
+        const std::uint32_t first = repeated[i].first;
+        terms.assign(1, {soup.transition[first], 1});
+        for (end = i; end < repeated.size() && repeated[end].first == first; ++end)
+            terms.push_back({soup.transition[repeated[end].facet], repeated[end].turned ? -1 : 1});
+        if (merged.sums.empty() || terms != merged.sums.back()) merged.sums.push_back(terms);
+        merged.first.push_back({first, static_cast<std::uint32_t>(merged.sums.size() - 1)});
+    }
+    return merged;
 }
 
 }  // namespace
 
 void merge_coincident(Soup& soup, const Context& context) {
-    const std::vector<Coincidence> coincident = find_coincident(soup, context);
-    if (context.cancelled() || coincident.empty()) return;
-    std::vector<char> dropped(soup.facets.size(), 0);
-    // Neighbours mostly add up the same, which is told from what they add.
-    using Terms = std::vector<std::pair<TransitionId, int>>;
-    Terms terms, known;
-    TransitionId known_sum = no_index;  // nothing is left
+    const Dealt dealt = deal_out(soup, context);
+    std::vector<Merged> merged(dealt.begin.size() - 1);
+    parallel_chunks(context, merged.size(), 1, [&](std::size_t r, std::size_t) {
+        const std::span<const std::uint32_t> facets(dealt.facets);
+        merged[r] = merge_range(soup, facets.subspan(dealt.begin[r], dealt.begin[r + 1] - dealt.begin[r]));
+    });
+    if (context.cancelled()) return;
+    // no_index where nothing is left.
+    std::vector<std::vector<TransitionId>> sums(merged.size());
     TransitionSum sum;
-    for (std::size_t i = 0, end; i < coincident.size(); i = end) {
-        const std::uint32_t first = coincident[i].first;
-        const bool odd = sorted(soup.facets[first]).odd;
-        terms.assign(1, {soup.transition[first], 1});
-        for (end = i; end < coincident.size() && coincident[end].first == first; ++end) {
-            const std::uint32_t facet = coincident[end].facet;
-            terms.push_back({soup.transition[facet], sorted(soup.facets[facet]).odd == odd ? 1 : -1});
-            dropped[facet] = 1;
-        }
-        if (terms != known) {
+    std::size_t count = 0;
+    for (std::size_t r = 0; r < merged.size(); ++r) {
+        count += merged[r].repeated.size();
+        for (const Terms& terms : merged[r].sums) {
             sum.clear();
             for (const auto& [transition, sign] : terms) sum.add(soup.transitions.of(transition), sign);
             const std::span<const Delta> total = sum.normalised();
-            known_sum = total.empty() ? no_index : soup.transitions.intern(total);
-            known.swap(terms);
+            sums[r].push_back(total.empty() ? no_index : soup.transitions.intern(total));
         }
-        if (known_sum == no_index)
-            dropped[first] = 1;
-        else
-            soup.transition[first] = known_sum;
     }
-    soup.coincident_facets += coincident.size();
-    drop_facets(dropped, soup);
+    if (count == 0) return;
+    std::vector<char> dropped(soup.facets.size(), 0);
+    parallel_chunks(context, merged.size(), 1, [&](std::size_t r, std::size_t) {
+        for (const Coincidence& each : merged[r].repeated) dropped[each.facet] = 1;
+        for (const auto& [first, which] : merged[r].first) {
+            if (sums[r][which] == no_index)
+                dropped[first] = 1;
+            else
+                soup.transition[first] = sums[r][which];
+        }
+    });
+    soup.coincident_facets += count;
+    drop_facets(dropped, soup, context);
 }
 
 }  // namespace octavo::boolean

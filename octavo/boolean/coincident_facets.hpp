@@ -8,8 +8,8 @@
 // is nothing, they vanish.
 //
 // Facets are dealt out by ranges of their least corners. Meshes are mostly numbered in some order, so that a range has
-// few facets that lie far apart, and a hash table for them fits the second-level cache. Ranges are independent; what
-// coincides is put together in the order of the facets. Cost: about 12 ns a facet.
+// few facets that lie far apart, and a hash table for them fits the second-level cache. Ranges are independent, but new
+// sums are numbered one after another. Cost: about 12 ns a facet.
 
 namespace octavo::boolean {
 

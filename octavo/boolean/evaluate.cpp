@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include <octavo/base/counted.hpp>
+#include <octavo/base/parallel.hpp>
 #include <octavo/boolean/assemble.hpp>
 #include <octavo/boolean/evaluate.hpp>
 #include <octavo/boolean/rounding_faults.hpp>
@@ -202,10 +203,16 @@ Result<Evaluated> evaluate(std::span<const mesh::Mesh* const> operands, const Pr
         classify(complex, points, tree, *patches, program, options.dangling, context);
     if (!classification) return classification.error();
     report.components = classification->components;
-    tree = {};
 
     phases.begin("assemble", 0.85);
-    Surface surface = select(complex, *patches, *classification, context);
+    Surface surface;
+    // Giving back the memory of the tree takes as long as choosing the triangles.
+    parallel_chunks(context, 2, 1, [&](std::size_t task, std::size_t) {
+        if (task == 0)
+            tree = {};
+        else
+            surface = select(complex, *patches, *classification, context);
+    });
     if (context.cancelled()) return Context::cancelled_error();
     report.dropped_facets =
         soup->facets.size() - report.cut_facets + report.pieces - surface.triangles.size();

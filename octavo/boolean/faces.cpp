@@ -77,7 +77,7 @@ std::vector<FlatEdge> find_flat_edges(const Soup& soup, const std::vector<std::u
 void drop_shared(const Soup& soup, std::vector<FlatEdge>& edges, const Context& context) {
     std::vector<char> is_end(soup.points.size(), 0);
     for (const FlatEdge& edge : edges) is_end[edge.low] = is_end[edge.high] = 1;
-    constexpr std::size_t grain = 1 << 15;
+    constexpr std::size_t grain = 1 << 12;
     std::vector<std::vector<std::uint32_t>> found(soup.facets.size() / grain + 1);
     parallel_chunks(context, soup.facets.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t facet = begin; facet < end; ++facet) {

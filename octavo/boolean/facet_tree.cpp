@@ -14,7 +14,7 @@ namespace {
 /// mesh of equal ones. Less makes ordinary meshes pay for the separate descents, more leaves slivers among the others.
 constexpr double long_ratio = 8;
 
-constexpr std::size_t grain = 1 << 14;
+constexpr std::size_t grain = 1 << 12;
 
 std::vector<Bundle> find_bundles(const Soup& soup, std::span<const BoxTree::Keyed> long_ones, double reach) {
     std::vector<std::uint32_t> facets;

@@ -71,7 +71,7 @@ void NearFacets::forget() {
 void NearFacets::find_groups(const Soup& soup, std::span<const std::uint32_t> first_of,
                              std::span<const std::uint32_t> next, const Context& context) {
     if (pairs_.empty()) return;
-    constexpr std::size_t grain = 1 << 14;
+    constexpr std::size_t grain = 1 << 12;
     std::vector<char> is_in_pair(soup.facets.size(), 0);
     const auto mark = [&](std::uint32_t facet) {
         std::atomic_ref(is_in_pair[facet]).store(1, std::memory_order_relaxed);

@@ -24,7 +24,7 @@ class CornersAt {
           stars_(stars),
           pieces_(corners_by_point(complex.pieces, complex.facets(), points, context)),
           is_cut_(complex.soup->points.size(), 0) {
-        constexpr std::size_t grain = 1 << 15;
+        constexpr std::size_t grain = 1 << 12;
         parallel_chunks(context, complex.facets(), grain, [&](std::size_t first, std::size_t last) {
             for (std::size_t facet = first; facet < last; ++facet)
                 if (complex.is_cut[facet])
@@ -157,10 +157,15 @@ class EdgeSearch {
 class PatchSearch {
   public:
     PatchSearch(const Complex& complex, const Stars& stars, const PointTable& points, const Context& context)
-        : complex_(complex), stars_(stars), points_(points), context_(context), sets_(complex.size()) {}
+        : complex_(complex),
+          stars_(stars),
+          points_(points),
+          context_(context),
+          sets_(complex.size(), context) {}
 
     Result<Patches> run() {
         const CornersAt corners_at(complex_, stars_, points_.size(), context_);
+        if (context_.cancelled()) return Context::cancelled_error();
         join_fans(corners_at);
         if (context_.cancelled()) return Context::cancelled_error();
         find_junctions(corners_at);
@@ -177,7 +182,7 @@ class PatchSearch {
     }
 
   private:
-    static constexpr std::size_t grain = 1 << 13;
+    static constexpr std::size_t grain = 1 << 12;
 
     void join_fans(const CornersAt& corners_at) {
         patches_.is_plain.assign(points_.size(), 0);
@@ -241,7 +246,7 @@ class PatchSearch {
             const auto t = static_cast<std::uint32_t>(triangle);
             return complex_.exists(t) && sets_.find(t) == t;
         };
-        constexpr std::size_t triangles = 1 << 16;
+        constexpr std::size_t triangles = 1 << 12;
         const std::vector<std::size_t> offset =
             chunk_offsets(context_, complex_.size(), triangles, [&](std::size_t first, std::size_t last) {
                 std::size_t count = 0;

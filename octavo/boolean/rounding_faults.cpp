@@ -335,7 +335,7 @@ class Mending {
 
 std::vector<std::uint32_t> find_inverted(const Surface& surface, const Soup& soup,
                                          const RoundedPoints& rounded, const Context& context) {
-    constexpr std::size_t grain = 1 << 14;
+    constexpr std::size_t grain = 1 << 12;
     const std::size_t first = rounded.moves_vertices() ? 0 : surface.first_piece(),
                       count = surface.triangles.size() - first;
     std::vector<std::vector<std::uint32_t>> found(count / grain + 1);

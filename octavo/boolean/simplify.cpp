@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/boolean/balanced_chunks.hpp>
 #include <octavo/boolean/cells.hpp>
 #include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/simplify.hpp>
@@ -206,7 +207,7 @@ class CoplanarMerge {
             std::vector<Side> sides;
             std::vector<std::uint32_t> pinned;
         };
-        constexpr std::size_t grain = 1 << 14;
+        constexpr std::size_t grain = 1 << 12;
         std::vector<Found> found(surface_.triangles.size() / grain + 1);
         parallel_chunks(context_, surface_.triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
             Found& here = found[begin / grain];
@@ -289,7 +290,7 @@ class CoplanarMerge {
 
     void find_needless() {
         needless_.assign(borders_.size(), 0);
-        parallel_chunks(context_, number_of_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        parallel_chunks(context_, number_of_.size(), 1 << 12, [&](std::size_t begin, std::size_t end) {
             for (std::size_t point = begin; point < end; ++point) {
                 const std::uint32_t number = number_of_[point];
                 if (number != no_index && !pinned_[number])
@@ -350,12 +351,14 @@ class CoplanarMerge {
 
     Surface rebuild() {
         Regions regions = collect_regions();
-        constexpr std::size_t grain = 64;
-        std::vector<Polygons> made((regions.size() + grain - 1) / grain);
+        const std::vector<std::size_t> chunk = balanced_chunks(
+            regions.size(), 64, 1024, [&](std::size_t i) { return regions[i].triangles.size(); });
+        std::vector<Polygons> made(chunk.size() - 1);
         const auto is_needed = [&](PointId point) { return !needless_[number_of_[point]]; };
-        parallel_chunks(context_, regions.size(), grain, [&](std::size_t begin, std::size_t end) {
-            RegionTriangulator triangulator(surface_, soup_, faces_, points_, made[begin / grain]);
-            for (std::size_t i = begin; i < end; ++i) triangulator.run(regions[i], is_needed);
+        parallel_chunks(context_, made.size(), 1, [&](std::size_t part, std::size_t) {
+            RegionTriangulator triangulator(surface_, soup_, faces_, points_, made[part]);
+            for (std::size_t i = chunk[part]; i < chunk[part + 1]; ++i)
+                triangulator.run(regions[i], is_needed);
         });
         surface_.merged.clear();
         std::vector<std::size_t> begin{first_piece_};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/boolean/chunk_offsets.hpp>
 #include <octavo/boolean/closing.hpp>
 #include <octavo/boolean/coincident_facets.hpp>
 #include <octavo/boolean/soup.hpp>
@@ -20,15 +21,25 @@ mesh::Source Soup::source(std::uint32_t facet) const {
     return {operand, origin[facet] - first_triangle[operand]};
 }
 
-void drop_facets(const std::vector<char>& dropped, Soup& soup) {
-    std::size_t kept = 0;
-    for (std::size_t facet = 0; facet < dropped.size(); ++facet) {
-        if (dropped[facet]) continue;
-        soup.facets[kept] = soup.facets[facet];
-        soup.transition[kept] = soup.transition[facet];
-        soup.origin[kept++] = soup.origin[facet];
-    }
-    soup.facets.resize(kept), soup.transition.resize(kept), soup.origin.resize(kept);
+void drop_facets(const std::vector<char>& dropped, Soup& soup, const Context& context) {
+    constexpr std::size_t grain = 1 << 12;
+    const std::vector<std::size_t> offset =
+        chunk_offsets(context, dropped.size(), grain, [&](std::size_t begin, std::size_t end) {
+            return static_cast<std::size_t>(std::count(dropped.data() + begin, dropped.data() + end, 0));
+        });
+    UninitialisedVector<mesh::Triangle> facets(offset.back());
+    UninitialisedVector<TransitionId> transition(offset.back());
+    UninitialisedVector<std::uint32_t> origin(offset.back());
+    parallel_chunks(context, dropped.size(), grain, [&](std::size_t begin, std::size_t end) {
+        std::size_t kept = offset[begin / grain];
+        for (std::size_t facet = begin; facet < end; ++facet) {
+            if (dropped[facet]) continue;
+            facets[kept] = soup.facets[facet];
+            transition[kept] = soup.transition[facet];
+            origin[kept++] = soup.origin[facet];
+        }
+    });
+    soup.facets.swap(facets), soup.transition.swap(transition), soup.origin.swap(origin);
 }
 
 namespace {
@@ -51,7 +62,7 @@ struct Ranges {
     }
 };
 
-constexpr std::size_t chunk_size = 1 << 15;
+constexpr std::size_t chunk_size = 1 << 12;
 
 Error error_of_operand(std::uint32_t operand, const char* what) {
     Error error{ErrorCode::bad_input, what, {}};
@@ -197,7 +208,7 @@ Status add_facets(std::span<const mesh::Mesh* const> operands, const Ranges& tri
         return missing_corner(operand, first_bad - triangles.begin[operand]);
     }
     for (const std::size_t part : flats) soup.flat_facets += part;
-    if (soup.flat_facets > 0) drop_facets(flat, soup);
+    if (soup.flat_facets > 0) drop_facets(flat, soup, context);
     return Done{};
 }
 

@@ -58,7 +58,7 @@ struct Soup {
 Result<Soup> make_soup(std::span<const mesh::Mesh* const> operands, OpenOperands open,
                        std::span<const std::string> names, const Context& context);
 
-/// Drops the facets that are marked.
-void drop_facets(const std::vector<char>& dropped, Soup& soup);
+/// Drops the facets that are marked. Cancellation leaves the others anything.
+void drop_facets(const std::vector<char>& dropped, Soup& soup, const Context& context);
 
 }  // namespace octavo::boolean

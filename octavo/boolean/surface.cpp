@@ -11,7 +11,7 @@ namespace {
 /// The triangles of patches with one of two roles.
 Surface select(const Complex& complex, const Patches& patches, const Classification& classification,
                Role straight, Role turned, const Context& context) {
-    constexpr std::size_t grain = 1 << 15;
+    constexpr std::size_t grain = 1 << 12;
     const auto role_of = [&](std::size_t triangle) {
         const std::uint32_t patch = patches.of_triangle[triangle];
         return patch == no_index ? Role::dropped : classification.of_patch[patch];

@@ -25,7 +25,7 @@ struct Parts {
 Parts deal_out(const UninitialisedVector<exact::Point>& positions, const Context& context) {
     const std::size_t count = positions.size(),
                       parts = std::min(most_parts, std::bit_ceil(count / part_size + 1)),
-                      chunk = std::max<std::size_t>(1 << 14, (count + 15) / 16),
+                      chunk = std::max<std::size_t>(1 << 12, (count + 15) / 16),
                       chunks = (count + chunk - 1) / chunk;
     const int shift = 64 - std::countr_zero(parts);
     const auto part_of = [&](exact::Point point) { return parts == 1 ? 0 : hash(point) >> shift; };
@@ -56,7 +56,7 @@ Parts deal_out(const UninitialisedVector<exact::Point>& positions, const Context
 /// Numbers the points in the order of the positions at which they appear first.
 Welded number_points(const UninitialisedVector<exact::Point>& positions,
                      const UninitialisedVector<std::uint32_t>& first_of, const Context& context) {
-    constexpr std::size_t grain = 1 << 15;
+    constexpr std::size_t grain = 1 << 12;
     const std::vector<std::size_t> offset =
         chunk_offsets(context, positions.size(), grain, [&](std::size_t begin, std::size_t end) {
             std::size_t count = 0;
