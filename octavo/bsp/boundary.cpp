@@ -19,9 +19,9 @@ void BoundaryExtractor::add_faces(FragmentPool& pool, const Tree& tree, const No
         front_in_.clear();
         Fragment asked = section;
         asked.facing = Facing::of(node.plane, front == Label::in);
-        clipper_.clip(pool, asked, seen, FaceSide::inner, front_in_, node.front);
+        clipper_.clip(pool, asked, seen, FaceSide::inner, front_in_, node.front, Whole::apart_at_edges);
         for (const Fragment& piece : front_in_)
-            clipper_.clip(pool, piece, other, FaceSide::inner, faces, node.back);
+            clipper_.clip(pool, piece, other, FaceSide::inner, faces, node.back, Whole::apart_at_edges);
     };
     visit(Label::out);
     visit(Label::in);

@@ -4,11 +4,11 @@
 namespace octavo::bsp {
 
 bool Clipper::clip(FragmentPool& pool, const Fragment& fragment, const Tree& tree, FaceSide side,
-                   std::vector<Fragment>& kept, Child from) {
+                   std::vector<Fragment>& kept, Child from, Whole whole) {
     const std::size_t first_kept = kept.size();
     // Inside is behind a face, on the plane's back unless the face is reversed.
     const bool to_front = fragment.facing.reversed() == (side == FaceSide::inner);
-    bool all = true;
+    bool all = true, join = true;
     met_coplanar_ = false;
     tasks_.clear();
     tasks_.push_back({fragment, from});
@@ -29,7 +29,10 @@ bool Clipper::clip(FragmentPool& pool, const Fragment& fragment, const Tree& tre
             continue;
         }
         pool.begin_cut(Bound::plane(node.plane), pool.planes()[node.plane]);
-        switch (pool.place(task.fragment)) {
+        const FragmentPool::Place place = pool.place(task.fragment);
+        if (whole == Whole::apart_at_edges && place != FragmentPool::Place::both)
+            join = join && !pool.has_edge_in_cut();
+        switch (place) {
             case FragmentPool::Place::front:
                 tasks_.push_back({task.fragment, node.front});
                 break;
@@ -47,7 +50,7 @@ bool Clipper::clip(FragmentPool& pool, const Fragment& fragment, const Tree& tre
                 OCTAVO_CHECK(false, "a face lies in a plane that is not its own");
         }
     }
-    if (all) {
+    if (all && join) {
         kept.resize(first_kept);
         kept.push_back(fragment);
     }

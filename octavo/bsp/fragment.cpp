@@ -112,6 +112,12 @@ FragmentPool::Place FragmentPool::place(const Fragment& f, const Side& side) {
     return front ? (back ? Place::both : Place::front) : back ? Place::back : Place::within;
 }
 
+bool FragmentPool::has_edge_in_cut() const {
+    for (std::size_t i = 0; i < signs_.size(); ++i)
+        if (signs_[i] == 0 && signs_[i == 0 ? signs_.size() - 1 : i - 1] == 0) return true;
+    return false;
+}
+
 void FragmentPool::split(const Fragment& f, Fragment& front, Fragment& back) {
     // The ring is read while its parts are written.
     const std::size_t room = corners_.size() + 2 * f.count + 4;

@@ -133,6 +133,8 @@ class FragmentPool {
     enum class Place : std::uint8_t { front, back, both, within };
     /// Sets the signs that `split` works with. `within`: the fragment lies in the plane.
     Place place(const Fragment& f);
+    /// Whether the fragment that was placed last has an edge in the cut.
+    bool has_edge_in_cut() const;
     /// Cuts a fragment that lies on both sides.
     void split(const Fragment& f, Fragment& front, Fragment& back);
 

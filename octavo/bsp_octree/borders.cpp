@@ -16,7 +16,7 @@ using boolean::PointId;
 using boolean::PointTable;
 using exact::Sign;
 
-/// Removes segments of one facing that run opposite ways.
+/// Removes segments of one facing that run opposite ways, unless they may be slits.
 void cancel_opposite(std::vector<BoundedSegment>& edges, const Context& context) {
     const auto ends = [](const Segment& s) {
         return std::pair(std::min(s.from, s.to), std::max(s.from, s.to));
@@ -32,12 +32,18 @@ void cancel_opposite(std::vector<BoundedSegment>& edges, const Context& context)
         std::ptrdiff_t balance = 0;  // of those that run upwards
         const auto [low, high] = ends(edges[i].segment);
         std::size_t up = i, down = i;
+        bool stay = false;
         for (end = i; end < edges.size() && edges[end].segment.facing == edges[i].segment.facing &&
                       ends(edges[end].segment) == std::pair{low, high};
              ++end) {
             const bool upwards = edges[end].segment.from == low;
             balance += upwards ? 1 : -1;
             (upwards ? up : down) = end;
+            stay = stay || edges[end].may_be_slit;
+        }
+        if (stay) {
+            while (i < end) edges[kept++] = edges[i++];
+            continue;
         }
         const BoundedSegment left = edges[balance > 0 ? up : down];
         for (; balance != 0; balance += balance > 0 ? -1 : 1) edges[kept++] = left;
@@ -66,10 +72,10 @@ class ByLine {
     }
 
     /// What is left on each line, sorted.
-    std::vector<Segment> sums(const Context& context) const {
-        std::vector<std::vector<Segment>> parts((keyed_.size() + grain - 1) / grain);
+    LineSums sums(const std::vector<char>& is_kept, const Context& context) const {
+        std::vector<LineSums> parts((keyed_.size() + grain - 1) / grain);
         parallel_chunks(context, keyed_.size(), grain, [&](std::size_t begin, std::size_t end) {
-            LineSum sum(points_);
+            LineSum sum(points_, is_kept);
             std::vector<std::uint32_t> others, on_line;
             std::size_t i = begin;
             // A line whose key began in the chunk before was added up there.
@@ -84,9 +90,12 @@ class ByLine {
                 }
             }
         });
-        std::vector<Segment> all;
-        for (const std::vector<Segment>& part : parts) all.insert(all.end(), part.begin(), part.end());
-        parallel_sort(context, all);
+        LineSums all;
+        for (const LineSums& part : parts) {
+            all.borders.insert(all.borders.end(), part.borders.begin(), part.borders.end());
+            all.passed.insert(all.passed.end(), part.passed.begin(), part.passed.end());
+        }
+        parallel_sort(context, all.borders), parallel_sort(context, all.passed);
         return all;
     }
 
@@ -135,6 +144,14 @@ class ByLine {
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed_;  ///< key of the line, number of the segment
 };
 
+/// Notes the points that borders of one facing pass on several lines; whether there are any. `passed` is sorted.
+bool keep_crossings(const std::vector<Passed>& passed, std::vector<char>& is_kept) {
+    bool any = false;
+    for (auto at = passed.begin(); (at = std::adjacent_find(at, passed.end())) != passed.end(); ++at)
+        is_kept[at->point] = 1, any = true;
+    return any;
+}
+
 /// At every point, as many segments of a facing end as start; and on every segment, the solid is on one side of as
 /// many faces as it is on the other side of.
 bool closes(const std::vector<Segment>& borders, const Context& context) {
@@ -160,7 +177,10 @@ bool sum_borders(std::vector<BoundedSegment> edges, const bsp::PlaneTable& plane
     cancel_opposite(edges, context);
     ByLine lines(edges, planes, points);
     lines.sort(attempt, context);
-    borders = lines.sums(context);
+    std::vector<char> is_kept(points.size());
+    LineSums sums = lines.sums(is_kept, context);
+    if (keep_crossings(sums.passed, is_kept)) sums = lines.sums(is_kept, context);
+    borders = std::move(sums.borders);
     return closes(borders, context);
 }
 

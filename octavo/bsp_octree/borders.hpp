@@ -16,6 +16,13 @@
 // between neighbouring end points: what runs both ways vanishes, however either was cut. Then the end points go at
 // which nothing changes, for any facing. What comes out is conforming: segments of all planes on a line have the same
 // ends.
+//
+// Where a solid touches itself, faces may cross and yet have no border there: three planes through one line with
+// sectors in and out by turns, as of three wedges on one edge. Each sector that is in lies opposite one that is out, so
+// each face goes straight on. (Of an even number of planes, faces turn round there.) Two faces that both go on across
+// one line cross, and are slit along it: the segment is there both ways. In the same way three borders of one plane may
+// go straight through one point. It is an end of fragments on all of these lines, so points that borders of one facing
+// pass on several lines are found by their numbers; all lines are then added up again and keep them.
 
 namespace octavo::bsp_octree {
 
@@ -29,6 +36,7 @@ struct Segment {
 struct BoundedSegment {
     Segment segment;
     bsp::Bound bound;
+    bool may_be_slit = false;  ///< faces may cross here (shared_lines.hpp)
 };
 
 /// The borders, sorted by facing. `points` names the ends. False when they do not close: the keys of this attempt

@@ -6,6 +6,7 @@
 #include <octavo/base/shared_progress.hpp>
 #include <octavo/bsp/boundary.hpp>
 #include <octavo/bsp_octree/fragment_edges.hpp>
+#include <octavo/bsp_octree/shared_lines.hpp>
 
 namespace octavo::bsp_octree {
 namespace {
@@ -35,12 +36,16 @@ class BatchMaker {
         fragments_.clear();
         extractor_.extract(pool_, leaf.cell, store_.tree(leaf.node), fragments_);
         number_.assign(pool_.mark().vertices, no_index);
+        lines_.begin(store_.planes, fragments_);
         for (const bsp::Fragment& fragment : fragments_) {
             const std::span<const bsp::Corner> ring = pool_.corners(fragment);
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 const bsp::Corner& next = ring[i + 1 == ring.size() ? 0 : i + 1];
                 const PointId from = number_of(ring[i].vertex, batch);
-                batch.edges.push_back({{fragment.facing, from, number_of(next.vertex, batch)}, ring[i].edge});
+                batch.edges.push_back({{fragment.facing, from, number_of(next.vertex, batch)},
+                                       ring[i].edge,
+                                       lines_.may_be_shared(fragment.facing.plane(), ring[i].edge,
+                                                            pool_.approximation(ring[i].vertex))});
             }
         }
         batch.fragments += fragments_.size();
@@ -61,6 +66,7 @@ class BatchMaker {
     bsp::FragmentPool pool_;
     bsp::BoundaryExtractor extractor_;
     std::vector<bsp::Fragment> fragments_;
+    SharedLines lines_;
     std::vector<PointId> number_;  ///< of each vertex of the leaf in the batch
 };
 

@@ -9,18 +9,25 @@ using boolean::PointId;
 using exact::Sign;
 
 void LineSum::add(std::span<const BoundedSegment> edges, std::span<const std::uint32_t> members,
-                  const exact::LineOrder& order, std::vector<Segment>& borders) {
+                  const exact::LineOrder& order, LineSums& sums) {
     sort_ends(edges, members, order);
     cover(edges, members);
     // Runs of intervals that agree become one segment.
     for (std::size_t i = 0, end; i < covers_.size(); i = end) {
         const std::size_t count = interval_end(i);
         end = count;
-        while (end < covers_.size() && continues(i, count, end)) end = interval_end(end);
+        while (end < covers_.size() && continues(i, count, end)) {
+            for (std::size_t k = i; k < count; ++k)
+                sums.passed.push_back({covers_[k].facing, ends_[covers_[end].interval]});
+            end = interval_end(end);
+        }
         const PointId from = ends_[covers_[i].interval], to = ends_[covers_[end - 1].interval + 1];
-        for (std::size_t k = i; k < count; ++k)
-            for (std::int32_t n = covers_[k].net; n != 0; n += n > 0 ? -1 : 1)
-                borders.push_back({covers_[k].facing, n > 0 ? from : to, n > 0 ? to : from});
+        for (std::size_t k = i; k < count; ++k) {
+            const auto& [interval, facing, net] = covers_[k];
+            for (std::int32_t n = net; n > 0; --n) sums.borders.push_back({facing, from, to});
+            for (std::int32_t n = net; n < 0; ++n) sums.borders.push_back({facing, to, from});
+            if (net == 0) sums.borders.insert(sums.borders.end(), {{facing, from, to}, {facing, to, from}});
+        }
     }
 }
 
@@ -57,13 +64,19 @@ void LineSum::cover(std::span<const BoundedSegment> edges, std::span<const std::
     std::sort(all_.begin(), all_.end(), [](const Cover& a, const Cover& b) {
         return a.interval != b.interval ? a.interval < b.interval : a.facing < b.facing;
     });
-    for (std::size_t i = 0, end; i < all_.size(); i = end) {
-        std::int32_t net = 0;
-        for (end = i; end < all_.size() && all_[end].interval == all_[i].interval &&
-                      all_[end].facing == all_[i].facing;
-             ++end)
-            net += all_[end].net;
-        if (net != 0) covers_.push_back({all_[i].interval, all_[i].facing, net});
+    for (std::size_t i = 0; i < all_.size();) {
+        const std::uint32_t interval = all_[i].interval;
+        const auto first = static_cast<std::ptrdiff_t>(covers_.size());
+        while (i < all_.size() && all_[i].interval == interval) {
+            Cover sum{interval, all_[i].facing, 0};
+            for (; i < all_.size() && all_[i].interval == interval && all_[i].facing == sum.facing; ++i)
+                sum.net += all_[i].net;
+            covers_.push_back(sum);
+        }
+        // A face that goes straight on has no border, but two that do cross.
+        const auto goes_on = [](const Cover& cover) { return cover.net == 0; };
+        if (std::count_if(covers_.begin() + first, covers_.end(), goes_on) < 2)
+            covers_.erase(std::remove_if(covers_.begin() + first, covers_.end(), goes_on), covers_.end());
     }
 }
 
@@ -78,6 +91,7 @@ bool LineSum::continues(std::size_t first, std::size_t first_end, std::size_t ne
     const std::size_t count = first_end - first;
     if (interval_end(next) - next != count || covers_[next].interval != covers_[next - 1].interval + 1)
         return false;
+    if (is_kept_[ends_[covers_[next].interval]]) return false;
     for (std::size_t k = 0; k < count; ++k)
         if (covers_[first + k].facing != covers_[next + k].facing ||
             covers_[first + k].net != covers_[next + k].net)

@@ -329,6 +329,79 @@ TEST(Build, BringsClosedModelsBackExactly) {
     }
 }
 
+TEST(ToMesh, SeparatesWedgesOppositeGaps) {
+    // Wedges about one edge, every other sixth or tenth of a turn: each side of one goes straight on in a side of
+    // another, and so do the borders in the planes above and below, where the edge ends. Nothing changes there for any
+    // plane; but faces, and borders, must not cross.
+    using tests::prism;
+    const mesh::Mesh three = tests::joined({prism(2, {{{0, 0}, {4, 0}, {4, 4}}}, 0, 1).mesh,
+                                            prism(2, {{{0, 0}, {0, 4}, {-4, 0}}}, 0, 1).mesh,
+                                            prism(2, {{{0, 0}, {-4, -4}, {0, -4}}}, 0, 1).mesh});
+    const std::array<std::array<int, 2>, 10> spokes{
+        {{4, 0}, {4, 1}, {4, 4}, {0, 4}, {-2, 4}, {-4, 0}, {-4, -1}, {-4, -4}, {0, -4}, {2, -4}}};
+    std::vector<mesh::Mesh> parts;
+    for (std::size_t i = 0; i < 10; i += 2)
+        parts.push_back(prism(2, {{{0, 0}, spokes[i], spokes[i + 1]}}, 0, 1).mesh);
+    const mesh::Mesh five = tests::joined(parts);
+    const mesh::Mesh tilted =
+        mesh::transform(five, {{{{1, 1, 2, 3}, {-1, 2, 1, 5}, {2, 1, -1, 0}}}});  // no line along an axis
+    const std::int64_t corner = -(std::int64_t{1} << 25);
+    const exact::Lattice centred = *exact::Lattice::from_parts(0, {corner, corner, corner});
+    // An outline that goes through (−½, −½) three times: an edge in two walls of cells, and no cell has all of the
+    // faces about it. Its ends lie so far apart that no triangle would have it as a side by chance.
+    const std::array<std::array<int, 2>, 6> outline{{{3, 0}, {-4, -1}, {-1, 3}, {0, -4}, {-4, -4}, {3, 3}}};
+    mesh::Mesh in_walls;
+    for (const double z : {0.0, 1.0})
+        for (const auto& [x, y] : outline)
+            in_walls.vertices.push_back({double(x), double(y), 20 * z + 3 * y});
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const std::uint32_t k = (i + 1) % 6;
+        in_walls.triangles.insert(in_walls.triangles.end(), {{i, i + 6, k}, {k, i + 6, k + 6}});
+        if (i == 0 || k == 0) continue;
+        in_walls.triangles.insert(in_walls.triangles.end(), {{0, i, k}, {6, k + 6, i + 6}});
+    }
+    struct Case {
+        mesh::Mesh mesh;
+        std::size_t wedges;
+    };
+    for (const auto& [mesh, wedges] : {Case{three, 3}, Case{five, 5}, Case{tilted, 5}, Case{in_walls, 3}})
+        for (const StopRule stop : {StopRule::few_planes, StopRule::common_point}) {
+            MeshOptions options = fine(1);
+            options.octree.stop = stop;
+            const BspOctree solid = tests::octree_of(mesh, options, centred);
+            tests::expect_solid(solid, tests::volume_of(mesh), "wedges");
+            const mesh::Mesh back = to_mesh(solid)->mesh;
+            EXPECT_EQ(back.triangles.size(), 8 * wedges);
+            EXPECT_EQ(back.vertices.size(), 6 * wedges);
+            EXPECT_EQ(mesh::measure(back).components, wedges);
+        }
+}
+
+TEST(ToMesh, SlitsFacesOnlyWhereTheyCross) {
+    // A wedge of one solid ends in the middle of an edge about which three planes go straight on.
+    const mesh::Mesh mesh{
+        {{3, 3, 1}, {1, 1, 2}, {1, 3, 0}, {0, 0, 3}, {0, 2, 0}, {1, 3, 1}, {0, 1, 2}, {2, 2, 1}, {3, 3, 0}},
+        {{0, 1, 2},
+         {3, 4, 1},
+         {3, 1, 0},
+         {0, 2, 4},
+         {1, 4, 2},
+         {4, 3, 0},
+         {5, 6, 0},
+         {5, 7, 6},
+         {8, 6, 7},
+         {8, 7, 0},
+         {8, 0, 6},
+         {5, 0, 7}},
+        {}};
+    for (const std::uint32_t planes : {1U, 16U}) {
+        const BspOctree solid = tests::octree_of(mesh, fine(planes));
+        const mesh::Mesh back = to_mesh(solid)->mesh;
+        EXPECT_EQ(tests::manifold_defect(back), "");
+        EXPECT_EQ(back.triangles.size(), 22U);
+    }
+}
+
 TEST(ToMesh, RefusesSolidsWithoutAnOuterBoundary) {
     const Result<ToMesh> result = to_mesh(tests::octree_of(mesh::cube()).complement());
     ASSERT_FALSE(result);
