@@ -20,6 +20,12 @@ std::uint32_t first_operand_of_union(std::span<const std::uint32_t> words) {
     return unites ? at + 1 : static_cast<std::uint32_t>(words.size());
 }
 
+std::array<std::int32_t, 3> middle_of_box(const Leaf& leaf) {
+    std::array<std::int32_t, 3> middle;
+    for (std::size_t a = 0; a < 3; ++a) middle[a] = (leaf.low[a] + leaf.high[a]) / 2;
+    return middle;
+}
+
 /// The cell of a brick that holds a lattice point.
 std::optional<BrickCell> cell_of(const std::array<std::int32_t, 3>& point, const octree::Cell& brick) {
     if (!brick.contains({point[0], point[1], point[2]})) return {};
@@ -90,10 +96,10 @@ Layers Brick::gray_by_bounds(const octree::Cell& parent) {
                         {{box.white, box.black}, {box.white, box.black}}};
         if (leaf.kind == LeafKind::box) {
             seen.reach.reached.in = without(Layers::cells(), box.white);
-        } else if (const std::optional<BrickCell> cell = cell_of(leaf.witness, parent);
+        } else if (const std::optional<BrickCell> cell = cell_of(middle_of_box(leaf), parent);
                    cell && leaf.kind == LeafKind::convex && !complemented && !cell->in(entered)) {
             ++tests_;
-            if (holds_witness(leaf)) cell->add_to(seen.reach.reached.in);
+            if (holds_middle(leaf)) cell->add_to(seen.reach.reached.in);
         }
         if (operand == at && !complemented) entered = entered | seen.reach.reached.in;
         return complemented ? complement(seen) : seen;
@@ -103,9 +109,9 @@ Layers Brick::gray_by_bounds(const octree::Cell& parent) {
         .gray();
 }
 
-/// Whether the point at the middle of a convex body is strictly inside, as it is unless rounding put it elsewhere.
-bool Brick::holds_witness(const Leaf& leaf) const {
-    const auto& [x, y, z] = leaf.witness;
+/// Whether the middle of its box is strictly inside a convex body, as it is of all but some cones and hulls.
+bool Brick::holds_middle(const Leaf& leaf) const {
+    const auto [x, y, z] = middle_of_box(leaf);
     for (const std::uint32_t id : program_->constraints_of(leaf)) {
         if (!ConstraintId::is_cone(id)) {
             if (program_->planes[id].at(x, y, z) <= 0) return false;

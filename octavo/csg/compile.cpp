@@ -168,7 +168,7 @@ Result<Program> compile(const Expr& expression, const CompileOptions& options, c
     if (!form) return form.error();
     FormBounds bounds = form_bounds(*form);
     for (std::size_t i = 0; i < form->leaves.size(); ++i)
-        if (!is_bounded(bounds.leaves[i]) && !std::holds_alternative<HalfSpace>(form->leaves[i].primitive))
+        if (!is_bounded(bounds.leaves[i]) && !std::holds_alternative<HalfSpace>(*form->leaves[i].primitive))
             return Error{ErrorCode::limit, "a primitive reaches farther than a double can hold", {}};
     Box3 content = options.universe ? *options.universe : bounds.box();
     Program program;

@@ -90,7 +90,7 @@ class LeafCompiler::Primitives {
 
     Result<Compiled> compile(const PlacedPrimitive& placed, const Box3& bounds) {
         bounds_ = bounds;
-        if (!std::holds_alternative<HalfSpace>(placed.primitive) &&
+        if (!std::holds_alternative<HalfSpace>(*placed.primitive) &&
             !(is_finite(to_lattice(bounds.low)) && is_finite(to_lattice(bounds.high))))
             return too_far();
         return std::visit([&](const auto& primitive) { return put(primitive, placed.place); },
