@@ -36,6 +36,15 @@ struct Range {
     double extent() const { return high - low; }
 };
 
+/// The power of two that brings the longest side to [1, 2), or as near as powers come that are doubles with an inverse;
+/// 1 for a point.
+double shrink_of(const Box3& bounds) {
+    double half = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        half = std::max(half, 0.5 * bounds.high[axis] - 0.5 * bounds.low[axis]);
+    return half > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(half) - 1, -1000, 1000)) : 1;
+}
+
 }  // namespace
 
 Result<Camera> Camera::look_at(std::span<const Vec3> points, const View& view, int width, int height) {
@@ -53,11 +62,13 @@ Result<Camera> Camera::look_at(std::span<const Vec3> points, const View& view, i
                        -std::sin(elevation)};
     camera.up_ = cross(camera.right_, camera.forward_);
     camera.target_ = 0.5 * bounds.low + 0.5 * bounds.high;
-    const double radius = std::max(length(bounds.extents()) / 2, 1e-300);
+    camera.shrink_ = shrink_of(bounds);
+    const Vec3 extents = camera.scaled(bounds.high) - camera.scaled(bounds.low);
+    const double radius = extents == Vec3{} ? 1 : length(extents) / 2;
     // The bounds' sphere touches the field of view, so every point lies in front of the eye.
     if (view.perspective > 0) camera.distance_ = radius / std::sin(view.perspective * pi / 360);
 
-    // Fit at a scale of one pixel a unit about the target first; then scale and move the picture.
+    // Fit at a scale of one pixel a unit of depth about the target first; then scale and move the picture.
     Range across, along;
     for (const Vec3& point : points) {
         const Vec3 p = camera.project(point);
@@ -82,7 +93,7 @@ Result<Camera> Camera::look_at(const Box3& bounds, const View& view, int width, 
 }
 
 Vec3 Camera::project(Vec3 world) const {
-    const Vec3 offset = world - target_;
+    const Vec3 offset = scaled(world) - scaled(target_);
     const double depth = dot(offset, forward_);
     const double scale = scale_ / weight(depth);
     return {centre_x_ + scale * dot(offset, right_), centre_y_ - scale * dot(offset, up_), depth};

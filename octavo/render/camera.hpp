@@ -7,8 +7,11 @@
 #include <octavo/base/vec3.hpp>
 
 // Where the viewer stands. A camera maps the world to the picture: x to the right and y down in pixels, depth away
-// from the viewer in world units. What is looked at fills the picture up to the margin, whatever the direction: the
-// camera fits the points themselves, not their box, whose empty corners would push them aside.
+// from the viewer. What is looked at fills the picture up to the margin, whatever the direction: the camera fits the
+// points themselves, not their box, whose empty corners would push them aside.
+//
+// Depths are in world units times a power of two that makes what is looked at about one across: so pictures are the
+// same bit for bit at any scale, where squares of lengths and depths in single precision would overflow or vanish.
 
 namespace octavo::render {
 
@@ -33,10 +36,12 @@ class Camera {
 
     /// x and y in pixels, z the depth: larger is farther.
     Vec3 project(Vec3 world) const;
+    /// What a way through the world is in depths.
+    Vec3 scaled(Vec3 way) const { return shrink_ * way; }
 
     bool is_perspective() const { return distance_ > 0; }
     /// Where the viewer stands; only in perspective, where everything looked at lies before it.
-    Vec3 eye() const { return target_ - distance_ * forward_; }
+    Vec3 eye() const { return target_ - distance_ / shrink_ * forward_; }
     /// What the picture's coordinates of a point at this depth were divided by; 1 when orthographic. Where a point is
     /// on the way between two others, weighted so, is the same in the world and in the picture.
     double weight(double depth) const { return distance_ > 0 ? (distance_ + depth) / distance_ : 1; }
@@ -49,8 +54,9 @@ class Camera {
   private:
     Vec3 right_, up_, forward_;
     Vec3 target_;
-    double scale_ = 1;                    // pixels per world unit, at the target's depth
-    double distance_ = 0;                 // of the eye from the target; 0 is orthographic
+    double shrink_ = 1;                   // the power of two for depths
+    double scale_ = 1;                    // pixels per unit of depth, at the target's
+    double distance_ = 0;                 // of the eye from the target, in depths; 0 is orthographic
     double centre_x_ = 0, centre_y_ = 0;  // of the target, in pixels
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <octavo/base/any_scale.hpp>
 #include <octavo/render/raster.hpp>
 #include <octavo/render/shading.hpp>
 
@@ -136,7 +137,8 @@ Result<Image> draw(const Scene& scene, const Camera& camera, const DrawOptions& 
             context.report("drawing", static_cast<double>(i) / static_cast<double>(scene.facets.size()));
         }
         const Facet& facet = scene.facets[i];
-        const Vec3 normal = cross(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
+        const Vec3 normal =
+            cross_direction(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
         const double size = length(normal);
         const std::array<Corner, 3> v{project(facet.corners[0]), project(facet.corners[1]),
                                       project(facet.corners[2])};
@@ -150,7 +152,9 @@ Result<Image> draw(const Scene& scene, const Camera& camera, const DrawOptions& 
     }
 
     // Far enough to clear the facets that meet in the line, near enough not to shine through thin walls.
-    const double bias = length(scene.bounds().extents()) * 2e-3;
+    const Box3 bounds = scene.bounds();
+    const double bias =
+        bounds.empty() ? 0 : length(camera.scaled(bounds.high) - camera.scaled(bounds.low)) * 2e-3;
     for (const Line& line : scene.lines)
         trace(buffer, project(line.from), project(line.to), line.color, options.line_width * options.samples,
               bias, options.cut_at);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include <octavo/base/any_scale.hpp>
 #include <octavo/render/cut_open.hpp>
 #include <octavo/render/scene.hpp>
 
@@ -57,7 +58,8 @@ Facet facet_of(const mesh::Mesh& mesh, mesh::FaceIndex face, MeshColors colors) 
 }
 
 Vec3 normal_of(const Facet& facet) {
-    const Vec3 normal = cross(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
+    const Vec3 normal =
+        cross_direction(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
     const double size = length(normal);
     return size > 0 ? 1 / size * normal : Vec3{};
 }

@@ -63,6 +63,38 @@ TEST(Engines, AgreeOnGeneratedSolids) {
     }
 }
 
+TEST(Engines, DrawTheSameAtAnyScale) {
+    mesh::Mesh gear = mesh::gear();
+    for (Vec3& vertex : gear.vertices) vertex = vertex + Vec3{40, -30, 7};
+    constexpr int small = 120;
+    for (const View& view : {View{}, View{150, -20, 50, 0.04}}) {
+        std::vector<Color> pixels;
+        std::vector<Polyline> loops, strokes;
+        for (const double size : {1.0, 0x1p-950, 0x1p-560, 0x1p-160, 0x1p160, 0x1p560, 0x1p900}) {
+            mesh::Mesh scaled = gear;
+            for (Vec3& vertex : scaled.vertices) vertex = size * vertex;
+            const Scene scene = scene_of(scaled, {});
+            const Camera camera = tests::camera_for(scene, view, small, small);
+            const Result<Image> image =
+                draw(scene, camera, {.width = small, .height = small, .cut_at = 41 * size, .cut_axis = 0});
+            const Result<Drawing> drawing =
+                remove_hidden_parts(scene, camera, {.width = small, .height = small});
+            ASSERT_TRUE(image && drawing) << size;
+            std::vector<Polyline> of_regions, of_edges;
+            for (const Region& region : drawing->regions)
+                of_regions.insert(of_regions.end(), region.loops.begin(), region.loops.end());
+            for (const Strokes& edges : drawing->edges)
+                of_edges.insert(of_edges.end(), edges.lines.begin(), edges.lines.end());
+            if (size == 1) pixels = image->pixels, loops = of_regions, strokes = of_edges;
+            EXPECT_TRUE(image->pixels == pixels) << size;
+            EXPECT_TRUE(of_regions == loops) << size;
+            EXPECT_TRUE(of_edges == strokes) << size;
+        }
+        EXPECT_GT(loops.size(), 20u);
+        EXPECT_GT(strokes.size(), 20u);
+    }
+}
+
 TEST(Engines, AgreeOnCrossingFacetsSeenFromBothSides) {
     for (const std::uint64_t seed : {1, 2}) {
         Scene scene = tests::random_facets(25, seed);
