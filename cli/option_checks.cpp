@@ -29,6 +29,13 @@ std::string check_positive(const std::string& text) {
                : fmt::format("must be a positive, finite number, not {}", text);
 }
 
+std::string check_part(const std::string& text) {
+    const std::optional<double> number = parsed<double>(text);
+    return number && *number > 0 && *number <= 1
+               ? ""
+               : fmt::format("must be a part: more than 0 and at most 1, not {}", text);
+}
+
 OptionCheck whole_number(std::int64_t least, std::int64_t most) {
     return [=](const std::string& text) -> std::string {
         const std::optional<std::int64_t> number = parsed<std::int64_t>(text);

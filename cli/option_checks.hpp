@@ -15,6 +15,9 @@ namespace octavo::cli {
 /// A positive, finite number; not-a-number is neither.
 std::string check_positive(const std::string& text);
 
+/// A number greater than 0, at most 1.
+std::string check_part(const std::string& text);
+
 /// A whole number from `least` to `most`.
 OptionCheck whole_number(std::int64_t least, std::int64_t most);
 

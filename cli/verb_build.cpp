@@ -112,7 +112,7 @@ void add_build(Program& program) {
         verb->add_option("--quality", options->quality, "fast tries fewer directions: looser envelopes"),
         {"normal", "fast"});
     verb->add_option("--gain", options->gain, "Planes must cut more than this part of their cell")
-        ->check(check_positive)
+        ->check(check_part)
         ->type_name("PART")
         ->capture_default_str();
     take_one_of(
@@ -121,7 +121,7 @@ void add_build(Program& program) {
             "greedy: by the volume they cut; k-medoids: by normals, as in the thesis, for comparison"),
         {"greedy", "k-medoids"});
     verb->add_option("--part", options->part, "For k-medoids: planes of level 0 as a part of the triangles")
-        ->check(check_positive)
+        ->check(check_part)
         ->type_name("PART")
         ->capture_default_str();
     verb->add_flag("--certify", options->certify, "Prove the tree again from its triangles");

@@ -140,10 +140,11 @@ UninitialisedVector<exact::Point> snap_vertices(std::span<const mesh::Mesh* cons
     constexpr std::int32_t middle = exact::universe_side / 2;
     struct Moved {
         std::size_t count = 0;
-        double farthest = 0;
+        double farthest = 0;  // in units, whose squares are doubles; squared
     };
     UninitialisedVector<exact::Point> positions(vertices.begin.back());
     std::vector<Moved> moved(positions.size() / chunk_size + 1);
+    const double per_unit = 1 / soup.lattice.unit();
     parallel_chunks(context, positions.size(), chunk_size, [&](std::size_t first, std::size_t last) {
         Moved& here = moved[first / chunk_size];
         vertices.for_each(first, last,
@@ -153,7 +154,7 @@ UninitialisedVector<exact::Point> snap_vertices(std::span<const mesh::Mesh* cons
                                   if (!used[i]) continue;
                                   const Vec3& vertex = operands[operand]->vertices[i - offset];
                                   positions[i] = soup.lattice.snap(vertex);
-                                  const Vec3 way = soup.lattice.to_world(positions[i]) - vertex;
+                                  const Vec3 way = per_unit * (soup.lattice.to_world(positions[i]) - vertex);
                                   here.count += way != Vec3{};
                                   here.farthest = std::max(here.farthest, dot(way, way));
                               }
@@ -161,7 +162,8 @@ UninitialisedVector<exact::Point> snap_vertices(std::span<const mesh::Mesh* cons
     });
     for (const Moved& part : moved) {
         soup.moved_vertices += part.count;
-        soup.largest_displacement = std::max(soup.largest_displacement, std::sqrt(part.farthest));
+        soup.largest_displacement =
+            std::max(soup.largest_displacement, std::sqrt(part.farthest) * soup.lattice.unit());
     }
     return positions;
 }

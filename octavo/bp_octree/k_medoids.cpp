@@ -116,8 +116,8 @@ class KMedoids {
     std::vector<DirectionCode> thinned(const std::vector<DirectionCode>& candidates, int level,
                                        const CellBox& box) const {
         if (candidates.size() <= 1) return candidates;
-        double most =
-            options_.part * static_cast<double>(tree_.mesh.triangles.size()) / std::ldexp(1.0, level);
+        double most = std::min(options_.part, 1.0) * static_cast<double>(tree_.mesh.triangles.size()) /
+                      std::ldexp(1.0, level);
         while (most >= static_cast<double>(candidates.size())) most /= 2;
         std::vector<Angles> angles;
         for (const DirectionCode code : candidates) {

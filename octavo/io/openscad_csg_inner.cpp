@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include <octavo/base/any_scale.hpp>
 #include <octavo/base/grouped.hpp>
 #include <octavo/csg/convex_hull.hpp>
 #include <octavo/csg/convex_pieces.hpp>
@@ -70,9 +71,22 @@ Result<Geometry> intersection(const Node& node, Children children, const Scope& 
     return Geometry::of(csg::intersect(solids(std::move(children))));
 }
 
+/// A solid's places are looked at when it is put on a lattice; a flat shape is worked on before.
+Result<Geometry> transformed_region(const Node& node, const Affine& map, const csg::Region& region,
+                                    const Scope& scope) {
+    csg::Region image = csg::transform(map, region);
+    for (const csg::Contour& contour : image.contours)
+        for (const csg::Vec2& p : contour)
+            if (!std::isfinite(p.x) || !std::isfinite(p.y))
+                return scope.syntax.error_at(
+                    node.place, std::string(node.name) + "(…) takes a shape beyond what a double can hold",
+                    ErrorCode::limit);
+    return Geometry::of(std::move(image));
+}
+
 Result<Geometry> transformed(const Node& node, const Affine& map, Children children, const Scope& scope) {
     Geometry geometry = unite(node, std::move(children), scope);
-    if (geometry.is_flat()) return Geometry::of(csg::transform(map, geometry.region));
+    if (geometry.is_flat()) return transformed_region(node, map, geometry.region, scope);
     if (!geometry.is_solid()) return geometry;
     if (csg::is_singular(map)) {
         scope.warn(node, std::string(node.name) + "(…) squeezes a solid flat; it is left out");
@@ -95,9 +109,9 @@ Result<Geometry> multmatrix(const Node& node, Children children, const Scope& sc
 }
 
 Affine rotation(Vec3 axis, double degrees) {
-    const double norm = length(axis);
-    if (!(norm > 0)) return {};
-    const Vec3 u = (1 / norm) * axis;
+    if (axis == Vec3{}) return {};
+    axis = scaled_near_one(axis);
+    const Vec3 u = (1 / length(axis)) * axis;
     const double c = csg::cos_degrees(degrees), s = csg::sin_degrees(degrees);
     Affine map;
     for (int r = 0; r < 3; ++r)
@@ -124,9 +138,12 @@ Result<Geometry> named_map(const Node& node, Children children, const Scope& sco
         for (std::size_t i = 0; i < 3; ++i) map.m[i][i] = v[i];
     } else if (node.name == "mirror") {
         const std::array<double, 3> v = p.vector<3>("v", {1, 0, 0});
-        const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-        for (std::size_t r = 0; r < 3 && square > 0; ++r)
-            for (std::size_t c = 0; c < 3; ++c) map.m[r][c] -= 2 * v[r] * v[c] / square;
+        const Vec3 across = scaled_near_one({v[0], v[1], v[2]});
+        const double square = dot(across, across);
+        for (int r = 0; r < 3 && square > 0; ++r)
+            for (int c = 0; c < 3; ++c)
+                map.m[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] -=
+                    2 * across[r] * across[c] / square;
     } else if (p.has("v")) {
         const std::array<double, 3> v = p.vector<3>("v", {0, 0, 1});
         map = rotation({v[0], v[1], v[2]}, p.number("a", 0));
@@ -227,7 +244,7 @@ Result<Geometry> resize(const Node& node, Children children, const Scope& scope)
         else if (automatic[a])
             map.m[a][a] = common;
     }
-    if (geometry.is_flat()) return Geometry::of(csg::transform(map, geometry.region));
+    if (geometry.is_flat()) return transformed_region(node, map, geometry.region, scope);
     return Geometry::of(csg::transform(map, std::move(geometry.solid)));
 }
 

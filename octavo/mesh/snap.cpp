@@ -29,6 +29,7 @@ Result<Snapped> snap(const Mesh& mesh, const exact::Lattice& lattice) {
     snapped.mesh.triangles = mesh.triangles;
     snapped.mesh.points.resize(mesh.vertices.size());
     std::optional<exact::Point> corner;
+    double largest_displacement = 0;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         if (!used[i]) continue;
         const Vec3& vertex = mesh.vertices[i];
@@ -43,8 +44,10 @@ Result<Snapped> snap(const Mesh& mesh, const exact::Lattice& lattice) {
         const Vec3 moved = lattice.to_world(point) - vertex;
         if (moved == Vec3{}) continue;
         ++snapped.report.moved_vertices;
-        snapped.report.largest_displacement = std::max(snapped.report.largest_displacement, length(moved));
+        // In units, whose squares are doubles.
+        largest_displacement = std::max(largest_displacement, length((1 / lattice.unit()) * moved));
     }
+    snapped.report.largest_displacement = largest_displacement * lattice.unit();
     constexpr std::int32_t middle = exact::universe_side / 2;
     for (std::size_t i = 0; i < used.size(); ++i)
         if (!used[i]) snapped.mesh.points[i] = corner.value_or(exact::Point{middle, middle, middle});

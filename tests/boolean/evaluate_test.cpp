@@ -234,6 +234,17 @@ mesh::Mesh sliver_cone(double x, double turn, std::uint32_t count) {
     return cone;
 }
 
+TEST(Evaluate, TellsHowFarVerticesMovedAtAnyScale) {
+    const mesh::Mesh sphere = tests::octahedral_sphere(4);
+    const double plain = unite(std::vector{sphere})->report.largest_displacement;
+    EXPECT_GT(plain, 0);
+    for (const double size : {0x1p-900, 0x1p-560, 0x1p560, 0x1p900}) {
+        mesh::Mesh scaled = sphere;
+        for (Vec3& vertex : scaled.vertices) vertex = size * vertex;
+        EXPECT_EQ(unite(std::vector{scaled})->report.largest_displacement, size * plain) << size;
+    }
+}
+
 TEST(Evaluate, CutsFansOfSliversWithoutLookingAtAllPairs) {
     const std::vector<mesh::Mesh> cones{sliver_cone(0, 0, 600), sliver_cone(0.01, 0.3, 600)};
     const Result<Evaluated> either = unite(cones), both = intersect(cones);

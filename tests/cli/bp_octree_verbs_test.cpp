@@ -74,6 +74,20 @@ TEST_F(BpOctreeVerbs, LeavesFollowTheCriterionOfTheirSiblings) {
     EXPECT_EQ(octavo("build knot.ply --coalesce most").exit_code, 2);
 }
 
+TEST_F(BpOctreeVerbs, PartsAreMoreThanNothingAndAtMostAll) {
+    ASSERT_EQ(octavo("shape cube -o cube.off").exit_code, 0);
+    for (const std::string option : {"--gain", "--planes k-medoids --part"}) {
+        for (const std::string part : {"0", "-1", "1.5", "1e308", "nan", "x"}) {
+            const Ran ran = octavo("build cube.off " + option + " " + part);
+            EXPECT_EQ(ran.exit_code, 2) << option << ' ' << part;
+            EXPECT_NE(ran.err.find("must be a part: more than 0 and at most 1, not " + part),
+                      std::string::npos)
+                << ran.err;
+        }
+        EXPECT_EQ(octavo("build cube.off " + option + " 1").exit_code, 0);
+    }
+}
+
 TEST_F(BpOctreeVerbs, BuildIsTheSameForAnyNumberOfThreads) {
     ASSERT_EQ(octavo("shape knot --detail 96 -o knot.ply").exit_code, 0);
     ASSERT_EQ(octavo("build knot.ply -o one.bpo --threads 1").exit_code, 0);

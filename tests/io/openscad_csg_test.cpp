@@ -166,6 +166,17 @@ TEST(OpenscadCsg, TreesMeanWhatTheyMeanInOpenscad) {
                 6, 1e-9);
 }
 
+TEST(OpenscadCsg, AxesMayHaveAnyLength) {
+    for (const std::string length : {"1", "1e-200", "1e-310", "1e200", "1e308"}) {
+        const Box3 mirrored = bounds("mirror([" + length + ",0,0]) { cube([1,2,3]); }");
+        EXPECT_NEAR(mirrored.low.x, -1, 1e-12) << length;
+        EXPECT_NEAR(mirrored.high.y, 2, 1e-12) << length;
+        const Box3 turned = bounds("rotate(a = 90, v = [0,0," + length + "]) { cube([1,2,3]); }");
+        EXPECT_NEAR(turned.low.x, -2, 1e-12) << length;
+        EXPECT_NEAR(turned.high.y, 1, 1e-12) << length;
+    }
+}
+
 TEST(OpenscadCsg, FlatPartsBecomeSolidsByExtrusion) {
     EXPECT_NEAR(volume("linear_extrude(height = 3) { square(size = [2, 5], center = false); }"), 30, 1e-9);
     EXPECT_NEAR(volume("linear_extrude(height = 3, scale = 0) { square(2); }"), 4, 1e-9);
@@ -284,6 +295,8 @@ TEST(OpenscadCsg, SaysWhatIsWrongAndWhere) {
         {"polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], faces = [[0,1,2],[0,3,1],[0,2,3]]);",
          ErrorCode::not_a_solid, 1, 1, "do not close"},
         {"rotate_extrude() { square(1, center = true); }", ErrorCode::bad_input, 1, 1, "both sides"},
+        {"linear_extrude(1) { scale([1e200, 1]) { scale([1e200, 1]) { square(1); } } }", ErrorCode::limit, 1,
+         21, "beyond what a double can hold"},
         {"123", ErrorCode::bad_input, 1, 1, "name of a node"},
         // The first of several.
         {"union() {\n cube(size = nan);\n sphere(r = inf);\n}", ErrorCode::bad_input, 2, 7, "finite"},

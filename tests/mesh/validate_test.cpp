@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <octavo/mesh/measure.hpp>
+#include <octavo/mesh/snap.hpp>
 #include <octavo/mesh/transform.hpp>
 #include <octavo/mesh/validate.hpp>
 
@@ -214,6 +215,17 @@ TEST(Validate, TellsThinFacetsThatTheLatticeFlattens) {
     EXPECT_TRUE(report.closed);
     EXPECT_GT(report.largest_displacement, 0);
     EXPECT_LT(report.largest_displacement, 1e-7);
+}
+
+TEST(Snap, TellsHowFarVerticesMovedAtAnyScale) {
+    const Mesh sphere = icosphere(1, 2);
+    const double plain = snap(sphere)->report.largest_displacement;
+    EXPECT_GT(plain, 0);
+    for (const double size : {0x1p-900, 0x1p-560, 0x1p560, 0x1p900}) {
+        Mesh scaled = sphere;
+        for (Vec3& vertex : scaled.vertices) vertex = size * vertex;
+        EXPECT_EQ(snap(scaled)->report.largest_displacement, size * plain) << size;
+    }
 }
 
 TEST(Validate, NamesTheFacetsThatCross) {
