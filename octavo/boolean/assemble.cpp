@@ -164,7 +164,7 @@ class VertexNumbering {
     }
 
   private:
-    static constexpr std::size_t grain = 1 << 12;
+    static constexpr std::size_t grain = 1 << 10;
 
     /// Which points are used, and the corners at special ones. Threads mark points at the same time, all with the same.
     void gather() {

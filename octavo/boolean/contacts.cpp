@@ -248,11 +248,10 @@ Pairs find_near(const Soup& soup, const FacetTree& tree, const Context& context)
     // Few tasks for small jobs; for large ones enough that two uneven halves do not matter.
     const std::vector<FacetTree::Task> tasks = tree.pair_tasks(soup.facets.size() < 2000 ? 1 : 256);
     std::vector<Pairs> found(tasks.size());
-    parallel_chunks(context, tasks.size(), 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t task = begin; task < end; ++task)
-            tree.for_each_pair(tasks[task], [&](std::uint32_t a, std::uint32_t b) {
-                found[task].push_back({a, b});
-            });
+    parallel_chunks(context, tasks.size(), 1, [&](std::size_t task, std::size_t) {
+        tree.for_each_pair(tasks[task], [&](std::uint32_t a, std::uint32_t b) {
+            found[task].push_back({a, b});
+        });
     });
     Pairs near;
     for (Pairs& part : found) {

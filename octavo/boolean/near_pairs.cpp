@@ -58,7 +58,7 @@ class PairSearch {
     }
 
   private:
-    static constexpr std::size_t grain = 1 << 12, corner_grain = 1 << 11;
+    static constexpr std::size_t grain = 1 << 12, corner_grain = 1 << 8;
 
     /// A facet of the soup at a corner; its triangles may go by the names of several facets.
     struct Incident {

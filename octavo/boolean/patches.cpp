@@ -173,16 +173,19 @@ class PatchSearch {
         if (!open_.empty()) return open_error();
         number_patches();
         patches_.same_region.resize(patches_.around.size());
-        parallel_chunks(context_, patches_.junctions.size(), grain, [&](std::size_t first, std::size_t last) {
-            std::vector<AboutEdge> turned;
-            for (std::size_t i = first; i < last; ++i) sort_around(patches_.junctions[i], turned);
-        });
+        parallel_chunks(context_, patches_.junctions.size(), junction_grain,
+                        [&](std::size_t first, std::size_t last) {
+                            std::vector<AboutEdge> turned;
+                            for (std::size_t i = first; i < last; ++i)
+                                sort_around(patches_.junctions[i], turned);
+                        });
         if (context_.cancelled()) return Context::cancelled_error();
         return std::move(patches_);
     }
 
   private:
-    static constexpr std::size_t grain = 1 << 12;
+    /// Of points, and of junctions, which are more work.
+    static constexpr std::size_t grain = 1 << 10, junction_grain = 1 << 8;
 
     void join_fans(const CornersAt& corners_at) {
         patches_.is_plain.assign(points_.size(), 0);

@@ -207,7 +207,7 @@ class CoplanarMerge {
             std::vector<Side> sides;
             std::vector<std::uint32_t> pinned;
         };
-        constexpr std::size_t grain = 1 << 12;
+        constexpr std::size_t grain = 1 << 10;
         std::vector<Found> found(surface_.triangles.size() / grain + 1);
         parallel_chunks(context_, surface_.triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
             Found& here = found[begin / grain];

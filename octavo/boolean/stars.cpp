@@ -81,7 +81,7 @@ Stars find_stars(const Soup& soup, double reach, const Context& context) {
     stars.is_fan.assign(points, 0);
     stars.is_spread.assign(points, 0);
     if (context.cancelled()) return stars;
-    constexpr std::size_t grain = 1 << 11;
+    constexpr std::size_t grain = 1 << 10;
     parallel_chunks(context, points, grain, [&](std::size_t first, std::size_t last) {
         Ring ring;
         SpreadTest test(soup, reach);
