@@ -48,7 +48,7 @@ bool holds_floats(const std::string& format) { return format == "stl"; }
 
 void tell(Session& session, const boolean::Evaluated& evaluated, const std::string& output,
           const std::string& format) {
-    const mesh::Measures measures = mesh::measure(evaluated.mesh);
+    const mesh::Moments measures = mesh::moments(evaluated.mesh);
     const boolean::Report& report = evaluated.report;
     session.warn(report.warnings);
     if (holds_floats(format) && report.largest_rounding > 0)

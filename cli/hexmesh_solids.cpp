@@ -64,13 +64,13 @@ Result<std::vector<mesh::Mesh>> read_solids(Session& session, const Context& con
 
 Result<bool> unite_with_nothing(Session& session, const Context& context, const std::string& path,
                                 const Error& refusal, const boolean::Options& options, mesh::Mesh& solid) {
-    const double before = mesh::measure(solid).volume;
+    const double before = mesh::moments(solid).volume;
     if (before <= 0) return false;
     Result<boolean::Evaluated> united = session.timed(
         "unite", [&] { return boolean::unite(std::span<const mesh::Mesh>(&solid, 1), options, context); });
     if (!united && united.error().code == ErrorCode::cancelled) return united.error();
     if (!united || united->mesh.triangles.empty()) return false;
-    session.warn(united_text(session, path, refusal, before, mesh::measure(united->mesh).volume));
+    session.warn(united_text(session, path, refusal, before, mesh::moments(united->mesh).volume));
     session.warn(united->report.warnings);
     solid = std::move(united->mesh);
     return true;

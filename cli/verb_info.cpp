@@ -104,7 +104,7 @@ Result<Facts> gather(Session& session, const Context& context, const io::ReadMes
     });
     if (!solid && solid.error().code == ErrorCode::cancelled) return solid.error();
     facts.solid_volume.reset();
-    if (solid) facts.solid_volume = mesh::measure(solid->mesh).volume;
+    if (solid) facts.solid_volume = mesh::moments(solid->mesh).volume;
     return facts;
 }
 

@@ -33,8 +33,7 @@ double quantile(std::vector<double> values, double part) {
 }
 
 void tell(Session& session, const bsp_octree::Milled& milled, const WrittenBspOctree& written,
-          const std::string& output) {
-    const mesh::Measures measures = bsp_octree::measure(milled.solid);
+          const mesh::Moments& measures, const std::string& output) {
     const bsp_octree::MillReport& report = milled.report;
     const double median = quantile(report.step_seconds, 0.5);
     session.result = {{"steps", report.steps},
@@ -118,10 +117,13 @@ Result<ExitCode> mill(Session& session, const MillArguments& arguments) {
     const Result<bsp_octree::Milled> milled =
         mill_workpiece(session, context, std::move(*work), tool->mesh, *poses);
     if (!milled) return in_its_file(milled.error(), {arguments.work, arguments.tool});
+    const mesh::Moments measures =
+        session.timed("measure", [&] { return bsp_octree::measure(milled->solid, context); });
+    if (context.cancelled()) return Context::cancelled_error();
     const Result<WrittenBspOctree> written =
         write_bsp_octree(session, context, arguments.output, milled->solid, *format);
     if (!written) return written.error();
-    tell(session, *milled, *written, arguments.output);
+    tell(session, *milled, *written, measures, arguments.output);
     return ExitCode::ok;
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <span>
 
-#include <octavo/base/parallel.hpp>
-#include <octavo/base/shared_progress.hpp>
-#include <octavo/bsp/boundary.hpp>
+#include <octavo/bsp_octree/faces.hpp>
 #include <octavo/bsp_octree/fragment_edges.hpp>
 #include <octavo/bsp_octree/shared_lines.hpp>
 
@@ -15,11 +12,6 @@ using boolean::no_index;
 using boolean::PointId;
 using boolean::PointTable;
 
-struct Leaf {
-    octree::Cell cell;
-    NodeRef node;
-};
-
 /// What one task finds in some leaves: ends of edges are numbers of points of its own.
 struct Batch {
     std::vector<exact::TriplePoint> points;
@@ -27,45 +19,36 @@ struct Batch {
     std::size_t fragments = 0;
 };
 
-class BatchMaker {
+class EdgeTaker {
   public:
-    explicit BatchMaker(const Store& store) : store_(store), pool_(store.planes) {}
-
-    void add(const Leaf& leaf, Batch& batch) {
-        const bsp::FragmentPool::Mark empty = pool_.mark();
-        fragments_.clear();
-        extractor_.extract(pool_, leaf.cell, store_.tree(leaf.node), fragments_);
-        number_.assign(pool_.mark().vertices, no_index);
-        lines_.begin(store_.planes, fragments_);
-        for (const bsp::Fragment& fragment : fragments_) {
-            const std::span<const bsp::Corner> ring = pool_.corners(fragment);
+    void operator()(const bsp::FragmentPool& pool, std::span<const bsp::Fragment> fragments, Batch& batch) {
+        number_.assign(pool.mark().vertices, no_index);
+        lines_.begin(pool.planes(), fragments);
+        for (const bsp::Fragment& fragment : fragments) {
+            const std::span<const bsp::Corner> ring = pool.corners(fragment);
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 const bsp::Corner& next = ring[i + 1 == ring.size() ? 0 : i + 1];
-                const PointId from = number_of(ring[i].vertex, batch);
-                batch.edges.push_back({{fragment.facing, from, number_of(next.vertex, batch)},
+                const PointId from = number_of(pool, ring[i].vertex, batch),
+                              to = number_of(pool, next.vertex, batch);
+                batch.edges.push_back({{fragment.facing, from, to},
                                        ring[i].edge,
                                        lines_.may_be_shared(fragment.facing.plane(), ring[i].edge,
-                                                            pool_.approximation(ring[i].vertex))});
+                                                            pool.approximation(ring[i].vertex))});
             }
         }
-        batch.fragments += fragments_.size();
-        pool_.release(empty);
+        batch.fragments += fragments.size();
     }
 
   private:
-    PointId number_of(bsp::VertexId vertex, Batch& batch) {
+    PointId number_of(const bsp::FragmentPool& pool, bsp::VertexId vertex, Batch& batch) {
         PointId& number = number_[vertex & ~bsp::FragmentPool::constructed_bit];
         if (number == no_index) {
             number = static_cast<PointId>(batch.points.size());
-            batch.points.push_back(pool_.constructed(vertex));
+            batch.points.push_back(pool.constructed(vertex));
         }
         return number;
     }
 
-    const Store& store_;
-    bsp::FragmentPool pool_;
-    bsp::BoundaryExtractor extractor_;
-    std::vector<bsp::Fragment> fragments_;
     SharedLines lines_;
     std::vector<PointId> number_;  ///< of each vertex of the leaf in the batch
 };
@@ -73,32 +56,13 @@ class BatchMaker {
 }  // namespace
 
 FragmentEdges fragment_edges(const BspOctree& octree, PointTable& points, const Context& context) {
-    constexpr std::size_t batch_leaves = 64, most_batches = 128;
-    std::vector<Leaf> leaves;
-    octree.for_each_leaf([&](const octree::Cell& cell, NodeRef leaf) {
-        if (leaf.is_bsp()) leaves.push_back({cell, leaf});
-    });
     FragmentEdges found;
     std::vector<PointId> ids;
-    for (std::size_t first = 0; first < leaves.size(); first += batch_leaves * most_batches) {
-        const std::size_t count = std::min(leaves.size() - first, batch_leaves * most_batches);
-        std::vector<Batch> batches((count + batch_leaves - 1) / batch_leaves);
-        const auto share = [&](std::size_t done) {
-            return static_cast<double>(done) / static_cast<double>(leaves.size());
-        };
-        SharedProgress progress(context, "faces", batches.size(), share(first), share(first + count));
-        parallel_chunks(context, count, batch_leaves, [&](std::size_t begin, std::size_t end) {
-            BatchMaker maker(octree.store());
-            for (std::size_t i = begin; i < end; ++i)
-                maker.add(leaves[first + i], batches[begin / batch_leaves]);
-            progress.step();
-        });
-        if (context.cancelled()) return found;
-
+    for_each_boundary(octree, context, Batch{}, EdgeTaker{}, [&](std::span<const Batch> batches) {
         std::vector<std::span<const exact::TriplePoint>> lists;
         for (const Batch& batch : batches) lists.emplace_back(batch.points);
         const auto places = points.places<exact::TriplePoint>(lists, context);
-        if (context.cancelled()) return found;
+        if (context.cancelled()) return;
         for (std::size_t b = 0; b < batches.size(); ++b) {
             const Batch& batch = batches[b];
             ids.clear();
@@ -110,7 +74,7 @@ FragmentEdges fragment_edges(const BspOctree& octree, PointTable& points, const 
             }
             found.fragments += batch.fragments;
         }
-    }
+    });
     return found;
 }
 

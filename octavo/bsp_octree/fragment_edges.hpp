@@ -8,11 +8,8 @@
 #include <octavo/bsp_octree/borders.hpp>
 #include <octavo/bsp_octree/bsp_octree.hpp>
 
-// The edges of all fragments of a BSP-octree's boundary, their ends named by value.
-//
-// Leaves are taken in batches, each by one task with a pool of its own; a vertex that several fragments of a leaf share
-// is handed on once. Points are named in the order of the leaves, one batch after the other, so ids do not depend on
-// threads. Only some batches are under way at a time: their points, 120 bytes each, wait to be named.
+// The edges of all fragments of a BSP-octree's boundary, their ends named by value: in the order of the leaves, so ids
+// do not depend on threads. A vertex that several fragments of a leaf share is looked up once.
 
 namespace octavo::bsp_octree {
 

@@ -5,6 +5,7 @@
 #include <octavo/boolean/rounding_faults.hpp>
 #include <octavo/boolean/surface.hpp>
 #include <octavo/bsp_octree/borders.hpp>
+#include <octavo/bsp_octree/bounds.hpp>
 #include <octavo/bsp_octree/faces.hpp>
 #include <octavo/bsp_octree/fill.hpp>
 #include <octavo/bsp_octree/fragment_edges.hpp>
@@ -76,34 +77,42 @@ Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context) {
     return result;
 }
 
-mesh::Measures measure(const BspOctree& octree) {
+mesh::Moments measure(const BspOctree& octree, const Context& context) {
     OCTAVO_CHECK(!is_unbounded(octree), "a solid without an outer boundary has no measures");
+    const Box3 bounds = bounds_of(octree);
+    if (bounds.empty()) return {};
+    // A node seldom gives more than one fragment, of two triangles. Were there more than this, the last digits would
+    // depend on the order of the leaves, which is always the same.
+    const mesh::MomentSum none(bounds, 16 * octree.stats().bsp_nodes);
     const auto& origin = octree.lattice().origin();
     const double unit = octree.lattice().unit();
-    mesh::Mesh soup;
-    for_each_boundary(octree, {}, [&](const bsp::FragmentPool& pool, const Fragments& fragments) {
+    const auto take = [&](const bsp::FragmentPool& pool, std::span<const bsp::Fragment> fragments,
+                          mesh::MomentSum& sum) {
         for (const bsp::Fragment& fragment : fragments) {
-            const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-            for (const bsp::Corner& corner : pool.corners(fragment)) {
-                const Vec3 at = pool.approximation(corner.vertex);
-                soup.vertices.push_back({(static_cast<double>(origin[0]) + at.x) * unit,
-                                         (static_cast<double>(origin[1]) + at.y) * unit,
-                                         (static_cast<double>(origin[2]) + at.z) * unit});
-            }
-            for (std::uint32_t k = 1; k + 1 < fragment.count; ++k) {
-                const std::uint32_t second = first + k, third = second + 1;
+            const std::span<const bsp::Corner> ring = pool.corners(fragment);
+            const auto corner = [&](std::size_t i) {
+                const Vec3 at = pool.approximation(ring[i].vertex);
+                return Vec3{(static_cast<double>(origin[0]) + at.x) * unit,
+                            (static_cast<double>(origin[1]) + at.y) * unit,
+                            (static_cast<double>(origin[2]) + at.z) * unit};
+            };
+            const Vec3 first = corner(0);
+            Vec3 second = corner(1);
+            for (std::size_t k = 2; k < ring.size(); ++k) {
+                const Vec3 third = corner(k);
                 if (fragment.facing.reversed())
-                    soup.triangles.push_back({first, third, second});
+                    sum.add(first, third, second);
                 else
-                    soup.triangles.push_back({first, second, third});
+                    sum.add(first, second, third);
+                second = third;
             }
         }
+    };
+    mesh::MomentSum sum = none;
+    for_each_boundary(octree, context, none, take, [&](std::span<const mesh::MomentSum> parts) {
+        for (const mesh::MomentSum& part : parts) sum.add(part);
     });
-    const mesh::Measures all = mesh::measure(soup);
-    mesh::Measures measures;
-    measures.volume = all.volume, measures.area = all.area;
-    measures.centroid = all.centroid, measures.inertia = all.inertia;
-    return measures;
+    return sum.moments();
 }
 
 }  // namespace octavo::bsp_octree

@@ -4,8 +4,8 @@
 #include <octavo/base/context.hpp>
 #include <octavo/base/result.hpp>
 #include <octavo/bsp_octree/bsp_octree.hpp>
-#include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/mesh.hpp>
+#include <octavo/mesh/moments.hpp>
 
 // From a BSP-octree back to a boundary.
 //
@@ -41,8 +41,8 @@ struct ToMesh {
 /// that was made to lie; cancelled.
 Result<ToMesh> to_mesh(const BspOctree& octree, const Context& context = {});
 
-/// Volume, area, centroid and inertia straight from the leaves, without a mesh. Counts of vertices and edges, bounds,
-/// genus and components are those of a mesh and not set. The solid must be bounded.
-mesh::Measures measure(const BspOctree& octree);
+/// Volume, area, centroid and inertia straight from the leaves, without a mesh. The solid must be bounded. Cancelled, a
+/// part is missing. Phase "faces".
+mesh::Moments measure(const BspOctree& octree, const Context& context = {});
 
 }  // namespace octavo::bsp_octree

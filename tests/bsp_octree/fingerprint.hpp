@@ -111,6 +111,11 @@ class Fingerprint {
         }
     }
 
+    void add(const Fingerprint& other) {
+        for (std::size_t k = 0; k < moments_.size(); ++k)
+            moments_[k] = Field::sum(moments_[k], other.moments_[k]);
+    }
+
     friend bool operator==(const Fingerprint&, const Fingerprint&) = default;
     bool is_zero() const { return *this == Fingerprint{}; }
 
@@ -127,19 +132,22 @@ class Fingerprint {
 
 inline Fingerprint fingerprint_of(const bsp_octree::BspOctree& solid) {
     const FieldPoints in_field(solid.lattice());
+    const auto take = [&](const bsp::FragmentPool& pool, std::span<const bsp::Fragment> fragments,
+                          Fingerprint& part) {
+        std::vector<FieldPoint> ring;
+        for (const bsp::Fragment& fragment : fragments) {
+            ring.clear();
+            for (const bsp::Corner& corner : pool.corners(fragment))
+                ring.push_back(in_field(pool.constructed(corner.vertex)));
+            for (std::size_t i = 2; i < ring.size(); ++i)
+                fragment.facing.reversed() ? part.add(ring[0], ring[i], ring[i - 1])
+                                           : part.add(ring[0], ring[i - 1], ring[i]);
+        }
+    };
     Fingerprint all;
-    std::vector<FieldPoint> ring;
-    bsp_octree::for_each_boundary(
-        solid, {}, [&](const bsp::FragmentPool& pool, const bsp_octree::Fragments& fragments) {
-            for (const bsp::Fragment& fragment : fragments) {
-                ring.clear();
-                for (const bsp::Corner& corner : pool.corners(fragment))
-                    ring.push_back(in_field(pool.constructed(corner.vertex)));
-                for (std::size_t i = 2; i < ring.size(); ++i)
-                    fragment.facing.reversed() ? all.add(ring[0], ring[i], ring[i - 1])
-                                               : all.add(ring[0], ring[i - 1], ring[i]);
-            }
-        });
+    bsp_octree::for_each_boundary(solid, {}, Fingerprint{}, take, [&](std::span<const Fingerprint> parts) {
+        for (const Fingerprint& part : parts) all.add(part);
+    });
     return all;
 }
 

@@ -228,7 +228,7 @@ class Comparison {
         const Result<boolean::Evaluated> theirs = boolean::evaluate(pointers, program);
         ASSERT_TRUE(theirs) << what;
         EXPECT_TRUE(tests::fingerprint_of(ours) == tests::fingerprint_of(operands, program)) << what;
-        const mesh::Measures expected = mesh::measure(theirs->mesh), found = measure(ours);
+        const mesh::Moments expected = mesh::moments(theirs->mesh), found = measure(ours);
         const double side = std::ldexp(lattice_.unit(), exact::coordinate_bits);
         const double area = std::max(expected.area, found.area), volume_off = 1e-12 * side * area;
         EXPECT_NEAR(found.volume, expected.volume, volume_off) << what;

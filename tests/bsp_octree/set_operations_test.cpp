@@ -114,7 +114,7 @@ TEST(SetOperations, AgreeWithBooleansOfMeshesOnSolidsOfManyFacets) {
             const std::string what = std::to_string(i) + " and " + std::to_string(k);
             const auto check = [&](const BspOctree& ours, const Result<boolean::Evaluated>& theirs) {
                 ASSERT_TRUE(theirs);
-                const mesh::Measures expected = mesh::measure(theirs->mesh), found = measure(ours);
+                const mesh::Moments expected = mesh::moments(theirs->mesh), found = measure(ours);
                 tests::expect_solid(ours, expected.volume, what);
                 EXPECT_NEAR(found.area, expected.area, 1e-9 * expected.area) << what;
                 EXPECT_NEAR(length(found.centroid - expected.centroid), 0, 1e-8) << what;
