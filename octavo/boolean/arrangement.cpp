@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <octavo/base/parallel.hpp>
+#include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/arrangement.hpp>
 #include <octavo/boolean/balanced_chunks.hpp>
 #include <octavo/boolean/cells.hpp>
@@ -46,18 +47,44 @@ struct Sheets {
     }
 };
 
-Sheets find_sheets(const Soup& soup, const Contacts& contacts) {
+/// The faces that are in any sheet, ascending.
+std::vector<std::uint32_t> faces_in_sheets(std::span<const std::uint32_t> sheet_of, const Context& context) {
+    constexpr std::size_t grain = 1 << 12;
+    const auto for_each = [&](std::size_t begin, std::size_t end, const auto& visit) {
+        for (std::size_t face = begin; face < end; ++face)
+            if (sheet_of[face] != no_index) visit(static_cast<std::uint32_t>(face));
+    };
+    const std::vector<std::size_t> offset =
+        chunk_offsets(context, sheet_of.size(), grain, [&](std::size_t begin, std::size_t end) {
+            std::size_t count = 0;
+            for_each(begin, end, [&](std::uint32_t) { ++count; });
+            return count;
+        });
+    std::vector<std::uint32_t> faces(offset.back());
+    parallel_chunks(context, sheet_of.size(), grain, [&](std::size_t begin, std::size_t end) {
+        std::size_t at = offset[begin / grain];
+        for_each(begin, end, [&](std::uint32_t face) { faces[at++] = face; });
+    });
+    return faces;
+}
+
+Sheets find_sheets(const Soup& soup, const Contacts& contacts, const Context& context) {
     mesh::DisjointSets sets(contacts.overlaps.empty() ? 0 : soup.facets.size());
     for (const Overlap& overlap : contacts.overlaps) sets.unite(overlap.first, overlap.second);
 
-    std::vector<std::uint32_t> sheet_of(soup.facets.size(), no_index);
+    UninitialisedVector<std::uint32_t> sheet_of(soup.facets.size());
+    parallel_chunks(context, sheet_of.size(), 1 << 12, [&](std::size_t begin, std::size_t end) {
+        std::fill(sheet_of.data() + begin, sheet_of.data() + end, no_index);
+    });
+    Sheets sheets;
+    if (context.cancelled()) return sheets;
     for (const Cut& cut : contacts.cuts) sheet_of[cut.face] = 0;
     for (const Overlap& overlap : contacts.overlaps) sheet_of[overlap.first] = sheet_of[overlap.second] = 0;
 
     // The least face of a set comes first, so it opens the sheet.
-    Sheets sheets;
-    for (std::uint32_t face = 0; face < sheet_of.size(); ++face) {
-        if (sheet_of[face] == no_index) continue;
+    const std::vector<std::uint32_t> faces = faces_in_sheets(sheet_of, context);
+    if (context.cancelled()) return sheets;
+    for (const std::uint32_t face : faces) {
         const std::uint32_t first = contacts.overlaps.empty() ? face : sets.find(face);
         if (first == face) {
             sheet_of[face] = static_cast<std::uint32_t>(sheets.first_face.size());
@@ -74,8 +101,7 @@ Sheets find_sheets(const Soup& soup, const Contacts& contacts) {
     sheets.faces.resize(sheets.first_face.back());
     sheets.cuts.resize(sheets.first_cut.back());
     std::vector<std::uint32_t> next(sheets.first_face);
-    for (std::uint32_t face = 0; face < sheet_of.size(); ++face)
-        if (sheet_of[face] != no_index) sheets.faces[next[sheet_of[face]]++] = face;
+    for (const std::uint32_t face : faces) sheets.faces[next[sheet_of[face]]++] = face;
     next = sheets.first_cut;
     for (const Cut& cut : contacts.cuts) sheets.cuts[next[sheet_of[cut.face]]++] = cut;
     return sheets;
@@ -336,7 +362,8 @@ Complex arrange(const Soup& soup, const Contacts& contacts, PointTable& points, 
     complex.soup = &soup;
     complex.transitions = soup.transitions;
     complex.is_cut.assign(soup.facets.size(), 0);
-    const Sheets sheets = find_sheets(soup, contacts);
+    const Sheets sheets = find_sheets(soup, contacts, context);
+    if (context.cancelled()) return complex;
     complex.sheets = sheets.size();
     const CutPlanes planes = find_cut_planes(soup, contacts, context);
     const std::vector<std::size_t> begin = balanced_chunks(sheets.size(), 64, 1024, [&](std::size_t sheet) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <bit>
 
 #include <octavo/base/parallel.hpp>
@@ -36,7 +37,11 @@ struct Hashed {
 
 CutPlanes find_cut_planes(const Soup& soup, const Contacts& contacts, const Context& context) {
     CutPlanes result;
-    result.of_facet.assign(soup.facets.size(), no_index);
+    result.of_facet.resize(soup.facets.size());
+    parallel_chunks(context, result.of_facet.size(), 1 << 12, [&](std::size_t begin, std::size_t end) {
+        std::fill(result.of_facet.data() + begin, result.of_facet.data() + end, no_index);
+    });
+    if (context.cancelled()) return result;
     std::vector<std::uint32_t> cutters;
     for (const Cut& cut : contacts.cuts) {
         if (result.of_facet[cut.other] != no_index) continue;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <octavo/base/context.hpp>
+#include <octavo/base/uninitialised.hpp>
 #include <octavo/boolean/contacts.hpp>
 #include <octavo/exact/plane.hpp>
 
@@ -18,7 +19,8 @@ namespace octavo::boolean {
 
 struct CutPlanes {
     std::vector<exact::Plane> planes;
-    std::vector<std::uint32_t> of_facet;  ///< index into `planes` for facets that cut others, else no_index
+    /// Where in `planes`, for facets that cut others, else no_index.
+    UninitialisedVector<std::uint32_t> of_facet;
 };
 
 CutPlanes find_cut_planes(const Soup& soup, const Contacts& contacts, const Context& context);
