@@ -38,6 +38,12 @@ std::optional<BrickCell> cell_of(const std::array<std::int32_t, 3>& point, const
 
 }  // namespace
 
+/// Cells that have been shown to be gray stay so: of them leaves were perhaps not looked at.
+inline void Brick::give(const LayerPair& cells, const LayerPair& reached) {
+    colors_.cells = {cells.out & open_cells_, cells.in & open_cells_};
+    colors_.unproved = without(neither(colors_.cells, open_cells_), reached.out & reached.in);
+}
+
 void Brick::look(const Program& program, std::span<const std::uint32_t> words, const octree::Cell& parent) {
     program_ = &program;
     words_ = words;
@@ -72,12 +78,6 @@ void Brick::look(const Program& program, std::span<const std::uint32_t> words, c
     const CornersSeen seen = fold_words<CornersSeen>(words, open_cells_, open_, see, note);
     reached_by_corners_ = seen.reached();
     give(seen.cells, reached_by_corners_);
-}
-
-/// Cells that have been shown to be gray stay so: of them leaves were perhaps not looked at.
-void Brick::give(const LayerPair& cells, const LayerPair& reached) {
-    colors_.cells = {cells.out & open_cells_, cells.in & open_cells_};
-    colors_.unproved = without(neither(colors_.cells, open_cells_), reached.out & reached.in);
 }
 
 /// Cells in which a point of a leaf lies and a corner, or a part, is out of all boxes: most of those at the bottom of

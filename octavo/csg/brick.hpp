@@ -63,7 +63,8 @@ class Brick {
     };
 
     void give(const LayerPair& cells, const LayerPair& reached);
-    Layers gray_by_bounds(const octree::Cell& parent);
+    // Apart: in line it would make `look` slower where it is not called.
+    [[gnu::noinline]] Layers gray_by_bounds(const octree::Cell& parent);
     bool holds_middle(const Leaf& leaf) const;
     CornersSeen look_at(const Leaf& leaf, Payload payload, const octree::Cell& parent, Node& node);
     CornersSeen look_at_convex(std::span<const std::uint32_t> constraints, const octree::Cell& parent,

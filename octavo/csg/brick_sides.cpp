@@ -89,7 +89,7 @@ QuadricCorners corners_of(const QuadricSteps& q, float error, float bend) {
         return Layers{Layers::Lanes{bits[0], bits[1], bits[2], bits[3], bits[4], 0, 0, 0}} &
                Layers::corners();
     };
-    return {layers(inside), layers(far_off), layers_of(nearest > error) == layers_of(Flags{} - 1)};
+    return {layers(inside), layers(far_off), !layers_of(~(nearest > error)).any()};
 }
 
 /// Two to the n, less one, in a float: a count of corners as their bits. For counts of five corners in three rows.
