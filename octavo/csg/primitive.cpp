@@ -37,11 +37,19 @@ struct Bounds {
     const Affine& place;
 
     Box3 operator()(const Cuboid& cuboid) const {
-        Box3 box;
-        for (int corner = 0; corner < 8; ++corner)
-            box.add(
-                place({corner & 1 ? cuboid.high.x : cuboid.low.x, corner & 2 ? cuboid.high.y : cuboid.low.y,
-                       corner & 4 ? cuboid.high.z : cuboid.low.z}));
+        // Rounded sums grow with their terms, so these are those of the eight corners to the bit.
+        Box3 box{{}, {}};
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto& row = place.m[static_cast<std::size_t>(axis)];
+            for (int along = 0; along < 3; ++along) {
+                const double a = row[static_cast<std::size_t>(along)] * cuboid.low[along],
+                             b = row[static_cast<std::size_t>(along)] * cuboid.high[along];
+                box.low[axis] += std::min(a, b);
+                box.high[axis] += std::max(a, b);
+            }
+            box.low[axis] += row[3];
+            box.high[axis] += row[3];
+        }
         return box;
     }
     Box3 operator()(const Ball& ball) const {
