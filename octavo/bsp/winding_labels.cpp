@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <octavo/bsp/winding_labels.hpp>
 
 namespace octavo::bsp {
@@ -38,25 +40,21 @@ bool covers(FragmentPool& pool, const Fragment& face, Fragment& spot) {
     return true;
 }
 
-/// The winding number behind a spot of a plane less that in front of it; makes the spot smaller.
-std::int32_t winding_across(FragmentPool& pool, std::span<const Fragment> fragments, PlaneId plane,
-                            Fragment& spot) {
-    std::int32_t change = 0;
-    for (const Fragment& face : fragments)
-        if (face.facing.plane() == plane && covers(pool, face, spot))
-            change += face.facing.reversed() ? -1 : 1;
-    return change;
+bool overlap(const Box3& a, const Box3& b) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis])) return false;
+    return true;
 }
 
-/// Whether some faces look at each other in one plane, so that there is no boundary there.
-bool cancel(FragmentPool& pool, std::span<const Fragment> fragments) {
-    for (std::size_t i = 0; i < fragments.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k) {
-            Fragment common = fragments[i];
-            if (fragments[k].facing == common.facing.opposite() && covers(pool, fragments[k], common))
-                return true;
-        }
-    return false;
+/// The winding number behind a spot less that in front of it; makes the spot smaller. The faces are all in its plane.
+std::int32_t winding_across(FragmentPool& pool, std::span<const WindingLabels::Face> faces, Fragment& spot) {
+    Box3 box;
+    for (const Corner& corner : pool.corners(spot)) box.add(pool.approximation(corner.vertex));
+    std::int32_t change = 0;
+    for (const WindingLabels::Face& face : faces)
+        if (overlap(face.box, box) && covers(pool, face.fragment, spot))
+            change += face.fragment.facing.reversed() ? -1 : 1;
+    return change;
 }
 
 }  // namespace
@@ -66,17 +64,57 @@ bool WindingLabels::label(FragmentPool& pool, const octree::Cell& cell, std::spa
     nodes_ = nodes;
     first_step_.assign(2 * nodes.size(), none);
     steps_.clear();
+    sort_by_plane(pool, fragments);
     const FragmentPool::Mark mark = pool.mark();
     polygons_.for_each(pool, cell, nodes, [&](std::size_t node, Fragment spot) {
         OCTAVO_CHECK(spot.count > 0, "the plane of a node passes by its region");
-        const std::int32_t change = winding_across(pool, fragments, nodes[node].plane, spot);
+        const std::int32_t change = winding_across(pool, faces_in(nodes[node].plane), spot);
         const Leaf front = leaf_beside(pool, spot, node, true), back = leaf_beside(pool, spot, node, false);
         join(front, back, change);
     });
-    const bool cancels = cancel(pool, fragments);
+    const bool cancels = cancel(pool);
     pool.release(mark);
     spread(leaf_at(cell.low, pool.planes()), at_low_corner);
     return put_labels(nodes) && !cancels;
+}
+
+void WindingLabels::sort_by_plane(const FragmentPool& pool, std::span<const Fragment> fragments) {
+    faces_.clear();
+    for (const Fragment& fragment : fragments) {
+        Box3 box;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const exact::Point p = pool.ends_of(Bound::side(3 * fragment.source + k))[0];
+            box.add(Vec3{p.x - 1.0, p.y - 1.0, p.z - 1.0});
+            box.add(Vec3{p.x + 1.0, p.y + 1.0, p.z + 1.0});
+        }
+        faces_.push_back({fragment, box});
+    }
+    std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) {
+        return a.fragment.facing != b.fragment.facing ? a.fragment.facing < b.fragment.facing
+                                                      : a.fragment.source < b.fragment.source;
+    });
+}
+
+std::span<const WindingLabels::Face> WindingLabels::faces_in(PlaneId plane) const {
+    const auto begin = std::partition_point(
+        faces_.begin(), faces_.end(), [&](const Face& face) { return face.fragment.facing.plane() < plane; });
+    const auto end = std::partition_point(
+        begin, faces_.end(), [&](const Face& face) { return face.fragment.facing.plane() == plane; });
+    return {begin, end};
+}
+
+/// Whether some faces look at each other in one plane, so that there is no boundary there.
+bool WindingLabels::cancel(FragmentPool& pool) const {
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+        for (std::size_t k = i; k-- > 0;) {
+            const Face &face = faces_[i], &other = faces_[k];
+            if (face.fragment.facing.plane() != other.fragment.facing.plane()) break;
+            Fragment common = face.fragment;
+            if (face.fragment.facing != other.fragment.facing && overlap(face.box, other.box) &&
+                covers(pool, other.fragment, common))
+                return true;
+        }
+    return false;
 }
 
 /// The leaf with a lattice point inside the cell, moved off all planes.

@@ -20,7 +20,7 @@
 // each node with those behind it: so they join all, and the winding number of one of them gives every other.
 //
 // Nothing is rounded, and faces are cut by planes of the tree only: vertices are those of any other tree.
-// Cost: about twice that of extracting the boundary, and faces times nodes comparisons of numbers.
+// Cost: about twice that of extracting the boundary, and for each node a look at the boxes of the faces in its plane.
 
 namespace octavo::bsp {
 
@@ -35,6 +35,12 @@ class WindingLabels {
     bool label(FragmentPool& pool, const octree::Cell& cell, std::span<const Fragment> fragments,
                std::span<Node> nodes, std::int32_t at_low_corner);
 
+    /// A face and the box of its triangle, a unit larger than that: approximations of vertices are off by far less.
+    struct Face {
+        Fragment fragment;
+        Box3 box;
+    };
+
   private:
     using Leaf = std::uint32_t;  ///< 2 · node + (is in front of it)
     static constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -45,6 +51,9 @@ class WindingLabels {
         std::uint32_t next;   ///< step from the same leaf
     };
 
+    void sort_by_plane(const FragmentPool& pool, std::span<const Fragment> fragments);
+    std::span<const Face> faces_in(PlaneId plane) const;
+    bool cancel(FragmentPool& pool) const;
     Leaf leaf_at(const exact::Point& corner, const PlaneTable& planes) const;
     Leaf leaf_beside(FragmentPool& pool, Fragment& spot, std::size_t node, bool is_front) const;
     void join(Leaf front, Leaf back, std::int32_t change);
@@ -52,6 +61,7 @@ class WindingLabels {
     bool put_labels(std::span<Node> nodes) const;
 
     std::span<const Node> nodes_;
+    std::vector<Face> faces_;  ///< by plane
     NodePolygons polygons_;
     std::vector<std::uint32_t> first_step_;  ///< by leaf
     std::vector<Step> steps_;

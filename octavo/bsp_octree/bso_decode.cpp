@@ -129,9 +129,14 @@ class Decoder {
             bits_.fail("a BSP node of the .bso file names a plane that is not there");
             return 0;
         }
-        if (std::find(path_.begin(), path_.end(), plane) != path_.end())
+        if (plane == known) {
+            read_new_plane(plane);
+            place_on_path_.resize(planes_.used());
+        }
+        std::uint32_t& place = place_on_path_[plane];
+        if (place < path_.size() && path_[place] == plane)
             bits_.fail("a plane comes twice on a path of a BSP tree of the .bso file");
-        if (plane == known) read_new_plane(plane);
+        place = static_cast<std::uint32_t>(path_.size());
         return plane;
     }
 
@@ -167,7 +172,8 @@ class Decoder {
     BlockReader& bits_;
     bso::References planes_, references_;
     std::vector<exact::Point> points_;
-    std::vector<bsp::PlaneId> path_;  ///< planes above the node at hand
+    std::vector<bsp::PlaneId> path_;            ///< planes above the node at hand
+    std::vector<std::uint32_t> place_on_path_;  ///< of each plane, when it was there last
 };
 
 }  // namespace

@@ -36,17 +36,18 @@ bool may_lie_in_two_walls(const Vec3& normal, int wall_axis, const Vec3& point) 
 }  // namespace
 
 void SharedLines::begin(const bsp::PlaneTable& planes, std::span<const bsp::Fragment> fragments) {
-    planes_.clear();
-    for (const bsp::Fragment& fragment : fragments) {
-        const bsp::PlaneId id = fragment.facing.plane();
-        if (std::any_of(planes_.begin(), planes_.end(), [&](const Approximate& p) { return p.id == id; }))
-            continue;
-        planes_.push_back({id, normal_of(planes[id]), planes[id].d_approximation()});
-    }
     table_ = &planes;
+    ids_.clear(), planes_.clear();
+    for (const bsp::Fragment& fragment : fragments) ids_.push_back(fragment.facing.plane());
+    std::sort(ids_.begin(), ids_.end());
+    ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+    if (ids_.size() > most_planes) return;
+    for (const bsp::PlaneId id : ids_)
+        planes_.push_back({id, normal_of(planes[id]), planes[id].d_approximation()});
 }
 
 bool SharedLines::may_be_shared(bsp::PlaneId plane, bsp::Bound bound, const Vec3& start) const {
+    if (ids_.size() > most_planes) return true;
     const Vec3 first = normal_of((*table_)[plane]);
     Vec3 second;
     if (bound.is_wall()) {

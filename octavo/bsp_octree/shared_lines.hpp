@@ -13,6 +13,8 @@
 // edges of fragments that run both ways are forgotten at once everywhere else. In a leaf, the line of an edge's plane
 // and of its bound must lie in the plane of another fragment. Where it is the line of two walls, the faces about it are
 // in four cells, and none may know of the others. Doubles tell: what they leave open may be shared, and costs a look.
+// In the few leaves of very many planes, as of an apex with thousands of faces, all edges may: trying each with each
+// plane took seven times as long as all the rest of `to_mesh` of a cone of 12 000 faces.
 
 namespace octavo::bsp_octree {
 
@@ -32,7 +34,9 @@ class SharedLines {
         double d;
     };
 
+    static constexpr std::size_t most_planes = 64;
     const bsp::PlaneTable* table_ = nullptr;
+    std::vector<bsp::PlaneId> ids_;
     std::vector<Approximate> planes_;
 };
 
