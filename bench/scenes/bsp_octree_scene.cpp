@@ -12,6 +12,7 @@
 #include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/io/read.hpp>
 #include <octavo/io/write.hpp>
+#include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/mesh/transform.hpp>
 #include <octavo/render/hidden_parts.hpp>
@@ -165,7 +166,7 @@ void measure_use(const std::string& name, const Pair& pair, const bsp_octree::Bu
     const double boolean_s = least(
         repeat, [&] { return or_exit(boolean::subtract(both), name); }, evaluated);
     const double volume = bsp_octree::measure(difference).volume,
-                 expected = mesh::measure(evaluated.mesh).volume;
+                 expected = mesh::moments(evaluated.mesh).volume;
     std::size_t areas = 0;
     const double draw_s = drawing_seconds(built.octree, back.mesh, repeat, areas);
     std::printf("%.3f,%zu,%.0f,%.3f,%.3f,%.2e,%.3f,%zu,", to_mesh_s, back.mesh.triangles.size(), points,

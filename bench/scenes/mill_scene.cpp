@@ -9,6 +9,7 @@
 #include <octavo/bsp_octree/mill.hpp>
 #include <octavo/bsp_octree/to_mesh.hpp>
 #include <octavo/io/write.hpp>
+#include <octavo/mesh/measure.hpp>
 #include <octavo/mesh/shapes.hpp>
 #include <octavo/mesh/transform.hpp>
 
@@ -67,7 +68,7 @@ double volume_at_once(const mesh::Mesh& work, const mesh::Mesh& tool, const std:
     std::vector<mesh::Mesh> operands{work};
     for (const Vec3& p : path) operands.push_back(mesh::transform(tool, mesh::translation(p)));
     const auto evaluated = boolean::subtract(operands);
-    return evaluated ? mesh::measure(evaluated->mesh).volume : -1;
+    return evaluated ? mesh::moments(evaluated->mesh).volume : -1;
 }
 
 int measure(int argc, char** argv) {
@@ -98,7 +99,7 @@ int measure(int argc, char** argv) {
         return 1;
     }
     const auto made = bsp_octree::to_mesh(milled->solid);
-    const double volume = made ? mesh::measure(made->mesh).volume : -1;
+    const double volume = made ? mesh::moments(made->mesh).volume : -1;
     const double expected = checks ? volume_at_once(work, tool, path) : 0;
     const bsp_octree::MillReport& report = milled->report;
     std::printf(
