@@ -4,13 +4,15 @@
 #include <memory>
 #include <vector>
 
+#include <octavo/base/huge_page_allocator.hpp>
+
 // Vectors whose new elements are not set to zero first, for large arrays that are written whole right after they are
-// made: zeroing them costs as much as filling them.
+// made: zeroing them costs as much as filling them. Large ones are in large pages.
 
 namespace octavo {
 
 template <class T>
-struct UninitialisedAllocator : std::allocator<T> {
+struct UninitialisedAllocator : HugePageAllocator<T> {
     template <class U>
     struct rebind {
         using other = UninitialisedAllocator<U>;

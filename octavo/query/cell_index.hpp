@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <octavo/base/huge_page_allocator.hpp>
 #include <octavo/octree/morton.hpp>
-#include <octavo/query/huge_page_allocator.hpp>
 
 // From a place to the leaf of an octree that holds it, in few loads and few bytes.
 //

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <octavo/base/context.hpp>
+#include <octavo/base/huge_page_allocator.hpp>
 #include <octavo/mesh/mesh.hpp>
-#include <octavo/query/huge_page_allocator.hpp>
 #include <octavo/query/lanes.hpp>
 
 // Boxes of boxes of triangles, eight at a time: where the search for the nearest triangle walks.

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <octavo/query/huge_page_allocator.hpp>
+#include <octavo/base/huge_page_allocator.hpp>
 
-namespace octavo::query {
+namespace octavo {
 namespace {
 
 struct alignas(64) Line {
@@ -22,4 +22,4 @@ TEST(HugePageAllocator, AlignsWhatAsksForItInArraysOfAllSizes) {
 }
 
 }  // namespace
-}  // namespace octavo::query
+}  // namespace octavo
